@@ -1,0 +1,40 @@
+// Timing of things side by side: in turns, so that what disturbs the machine disturbs all alike, and in processor
+// time, so that other programs do not count.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include <time.h>
+
+namespace bench {
+
+/// Processor time of this process so far [s].
+inline double processor_time() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// The median time of one call of each function [s], over `rounds` rounds in which each is called once.
+inline std::vector<double> median_times(const std::vector<std::function<void()>>& functions, int rounds) {
+    std::vector<std::vector<double>> times(functions.size());
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t i = 0; i < functions.size(); ++i) {
+            const double start = processor_time();
+            functions[i]();
+            times[i].push_back(processor_time() - start);
+        }
+    }
+    std::vector<double> medians;
+    for (auto& t : times) {
+        const auto middle = t.begin() + static_cast<std::ptrdiff_t>(t.size() / 2);
+        std::nth_element(t.begin(), middle, t.end());
+        medians.push_back(*middle);
+    }
+    return medians;
+}
+
+}  // namespace bench

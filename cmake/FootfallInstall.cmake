@@ -1,0 +1,29 @@
+# `cmake --install`: library, headers, command line, scenarios, and what find_package(footfall) reads.
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/footfall)
+
+install(TARGETS footfall EXPORT footfall_targets)
+install(TARGETS footfall_cli)
+install(DIRECTORY include/footfall ${PROJECT_BINARY_DIR}/include/footfall
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+    FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY scenarios/
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/footfall/scenarios
+    FILES_MATCHING PATTERN "*.toml")
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+install(EXPORT footfall_targets
+    FILE footfallTargets.cmake
+    NAMESPACE footfall::
+    DESTINATION ${package_dir})
+
+get_target_property(library_type footfall TYPE)
+string(COMPARE EQUAL ${library_type} STATIC_LIBRARY footfall_is_static)
+configure_package_config_file(cmake/footfallConfig.cmake.in cmake/footfallConfig.cmake
+    INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(cmake/footfallConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES
+    ${PROJECT_BINARY_DIR}/cmake/footfallConfig.cmake
+    ${PROJECT_BINARY_DIR}/cmake/footfallConfigVersion.cmake
+    DESTINATION ${package_dir})

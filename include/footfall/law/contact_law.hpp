@@ -1,0 +1,132 @@
+// A normal law and a friction law, composed: the whole contact law of one sphere.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "footfall/law/normal/normal_force.hpp"
+#include "footfall/math/scalar.hpp"
+#include "footfall/math/vector.hpp"
+
+namespace footfall {
+
+/// How one sphere touches the ground.
+enum class Phase : std::uint8_t {
+    flight,      ///< z <= 0: no contact
+    stick,       ///< z > 0, F_n > 0, the clutch holds
+    slip,        ///< z > 0, F_n > 0, the clutch slips (always, where there is no friction)
+    recovering,  ///< z > 0 but F_n = 0: the clamp (14) holds, the ground rises with the sphere
+};
+[[nodiscard]] std::string_view name_of(Phase phase) noexcept;
+
+/// What one contact does at one moment. Forces act on the body; tangential vectors are in the ground's plane.
+template <class S>
+struct ContactResponse {
+    Phase phase = Phase::flight;
+    S normal_force = S(0);                                  ///< F_n [N], >= 0. (13), (14)
+    Vector2<S> friction_force = Vector2<S>::Zero();         ///< F_f [N]. (26), (27)
+    Vector2<S> bristle_rate = Vector2<S>::Zero();           ///< udot [m/s]. (31)
+    S normal_spring = S(0);                                 ///< stored [J]. (17)
+    S tangential_spring = S(0);                             ///< W, stored [J]
+    S normal_damper_power = S(0);                           ///< dissipated [W]. (16)
+    S tangential_damper_power = S(0);                       ///< dissipated [W]. (28)
+    S clutch_power = S(0);                                  ///< dissipated [W]. (29), sign mended
+    S stiffness_change_power = S(0);                        ///< dP/dt [W]
+};
+
+/// The contact law of one sphere. `Normal` and `Friction` are laws over the same scalar.
+///
+/// It holds no state: the bristle u belongs to the caller, who integrates `bristle_rate` in every phase.
+template <class Normal, class Friction>
+struct ContactLaw {
+    using S = typename Normal::value_type;
+    using value_type = S;
+    /// Friction is computed over s^ScalePower, which keeps it regular at touchdown.
+    static constexpr int ScalePower = Friction::ScalePower;
+    /// Whether the phases stick and slip differ.
+    static constexpr bool has_clutch = Friction::has_bristle;
+
+    Normal normal;
+    Friction friction;
+
+    /// The response to a depth z [m], its rate [m/s], the slip velocity V [m/s] and the bristle u [m]; the phase is
+    /// decided here. Where D_t = C_V = 0 and the contact slips, `bristle_rate` takes the load as constant.
+    [[nodiscard]] ContactResponse<S> evaluate(const S& depth, const S& depth_rate, const Vector2<S>& V,
+                                              const Vector2<S>& u) const noexcept {
+        using std::sqrt;
+        if (!(depth > S(0))) return respond(Phase::flight, S(0), depth_rate, V, u);
+        const S s = sqrt(depth);
+        return respond(phase_of(s, depth_rate, V, u), s, depth_rate, V, u);
+    }
+
+    /// The phase of a contact with z = s^2 > 0. (14), (26)
+    [[nodiscard]] Phase phase_of(const S& s, const S& z_rate, const Vector2<S>& V, const Vector2<S>& u) const noexcept {
+        const S phi_n = normal.template force<ScalePower>(s, z_rate).total();
+        if (!(phi_n > S(0))) return Phase::recovering;
+        if constexpr (Friction::has_bristle) {
+            return friction.holds(phi_n, V, u) ? Phase::stick : Phase::slip;
+        } else {
+            return Phase::slip;
+        }
+    }
+
+    /// The response in a phase that is known, as a smooth function of its arguments: s = sqrt(z) may be a little below
+    /// zero, the force a little negative. `phi_n_rate` is d(F_n / s^ScalePower)/dt.
+    [[nodiscard]] ContactResponse<S> respond(Phase phase, const S& s, const S& z_rate, const Vector2<S>& V,
+                                             const Vector2<S>& u,
+                                             [[maybe_unused]] const S& phi_n_rate = S(0)) const noexcept {
+        ContactResponse<S> r;
+        r.phase = phase;
+        if (phase == Phase::flight) {
+            if constexpr (Friction::has_bristle) {
+                const S scale = friction.scale(S(0));
+                r.bristle_rate = recovery(u);
+                r.tangential_spring = friction.stored_energy(scale, u);
+                r.tangential_damper_power = scale * friction.damping * r.bristle_rate.squaredNorm();
+            }
+            return r;
+        }
+        const NormalForce<S> f = normal.force(s, z_rate);
+        r.normal_spring = normal.stored_energy(s);
+        if (phase == Phase::recovering) {
+            r.normal_damper_power = -f.elastic * z_rate;  // (14): the damper takes what the spring gives
+        } else {
+            r.normal_force = f.total();                      // (13)
+            r.normal_damper_power = f.dissipative * z_rate;  // (16)
+        }
+        if constexpr (Friction::has_bristle) {
+            const S scale = friction.scale(s);
+            r.tangential_spring = friction.stored_energy(scale, u);
+            r.stiffness_change_power = -friction.stiffening_power(s, z_rate, u);
+            if (phase == Phase::recovering) {
+                r.bristle_rate = recovery(u);
+            } else {
+                const auto t =
+                    phase == Phase::stick
+                        ? friction.stick(V, u)
+                        : friction.slip(scale, normal.template force<ScalePower>(s, z_rate).total(), phi_n_rate, V, u);
+                r.friction_force = scale * t.force;
+                r.bristle_rate = t.bristle_rate;
+                r.clutch_power = -r.friction_force.dot(t.clutch_velocity);  // (29), (30)
+            }
+            r.tangential_damper_power = scale * friction.damping * r.bristle_rate.squaredNorm();  // (28)
+        }
+        return r;
+    }
+
+    template <class T>
+    [[nodiscard]] constexpr auto cast() const noexcept {
+        auto n = normal.template cast<T>();
+        auto f = friction.template cast<T>();
+        return ContactLaw<decltype(n), decltype(f)>{n, f};
+    }
+
+private:
+    /// A bristle with no force on it; one without damping has no memory of its own. (31) with F_f = 0.
+    [[nodiscard]] Vector2<S> recovery(const Vector2<S>& u) const noexcept {
+        if (!(friction.damping > S(0))) return Vector2<S>::Zero();
+        return -friction.recovery_rate() * u;
+    }
+};
+
+}  // namespace footfall

@@ -1,0 +1,73 @@
+// The ledger and the snapshot of a state: numbers for a person, out of the flat state vector.
+#pragma once
+
+#include "footfall/simulate/run.hpp"
+#include "footfall/simulate/system.hpp"
+
+namespace footfall {
+
+/// The energies of contact i at y [J].
+template <class System>
+[[nodiscard]] ContactEnergy contact_energy(const System& system, const typename System::StateVector& y,
+                                           const typename System::Motion& motion, int i) {
+    using Layout = std::remove_cvref_t<decltype(system.layout())>;
+    const auto taken = [&](int channel) { return static_cast<double>(y[system.layout().ledger(i) + channel]); };
+    ContactEnergy e;
+    e.normal_damper = taken(Layout::normal_damper);
+    e.tangential_damper = taken(Layout::tangential_damper);
+    e.clutch = taken(Layout::clutch);
+    e.stiffness_change = taken(Layout::stiffness_change);
+    const auto r = system.response(y, system.kinematics(motion, i), i);
+    e.normal_spring = static_cast<double>(r.normal_spring);
+    e.tangential_spring = static_cast<double>(r.tangential_spring);
+    return e;
+}
+
+/// The whole account at y [J].
+template <class System>
+[[nodiscard]] Ledger ledger_of(const System& system, const typename System::StateVector& y) {
+    const auto motion = system.motion(y);
+    Ledger ledger;
+    ledger.kinetic = static_cast<double>(system.kinetic_energy(y, motion));
+    ledger.potential = static_cast<double>(system.potential_energy(motion));
+    for (int i = 0; i < system.spheres(); ++i) ledger.contact += contact_energy(system, y, motion, i);
+    return ledger;
+}
+
+/// Everything at y.
+template <class System>
+[[nodiscard]] Snapshot snapshot_of(const System& system, const typename System::StateVector& y) {
+    using Layout = std::remove_cvref_t<decltype(system.layout())>;
+    const auto motion = system.motion(y);
+    const auto& frame = system.frame();
+    Snapshot shot;
+    shot.time = static_cast<double>(y[Layout::time]);
+    shot.body.position = motion.position.template cast<double>();
+    shot.body.velocity = motion.velocity.template cast<double>();
+    shot.body.angular_velocity = motion.angular_velocity.template cast<double>();
+    const Eigen::Vector4d q = y.template segment<4>(Layout::orientation).template cast<double>().matrix();
+    shot.body.orientation = Eigen::Quaterniond(q);
+    for (int i = 0; i < system.spheres(); ++i) {
+        const auto k = system.kinematics(motion, i);
+        ContactSnapshot c;
+        c.phase = system.phase(i);
+        c.depth_rate = static_cast<double>(k.depth_rate);
+        c.slip_velocity = frame.to_world(k.slip).template cast<double>();
+        c.bristle = frame.to_world(system.bristle(y, i)).template cast<double>();
+        if (system.touches(i)) {
+            const auto r = system.response(y, k, i);
+            const auto s = y[system.layout().root_depth(i)];
+            c.depth = static_cast<double>(s * s);
+            c.normal_force = std::max(0.0, static_cast<double>(r.normal_force));
+            c.friction_force = frame.to_world(r.friction_force).template cast<double>();
+        } else {
+            c.depth = static_cast<double>(system.geometric_depth(motion, k, i));
+        }
+        c.energy = contact_energy(system, y, motion, i);
+        shot.contacts.push_back(c);
+    }
+    shot.ledger = ledger_of(system, y);
+    return shot;
+}
+
+}  // namespace footfall

@@ -1,0 +1,196 @@
+// The two integrators behind one face: explicit until the equations prove stiff, implicit while they are.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "footfall/simulate/dormand_prince_853.hpp"
+#include "footfall/simulate/radau.hpp"
+
+namespace footfall {
+
+/// Takes steps with the method that suits the equations, and chooses their size. `F(y, rate)` is the right-hand
+/// side, `J(y, matrix)` its Jacobian for the components before the ledger.
+template <class StateVector, class F, class J>
+class Method {
+public:
+    using S = typename StateVector::Scalar;
+    using Vector = typename RadauIIA<S>::Vector;
+    using Matrix = typename RadauIIA<S>::Matrix;
+
+    Method(F f, J jacobian, int dynamic_size)
+        : f_(std::move(f)),
+          jacobian_(jacobian),
+          implicit_([this](const Vector& y, Vector& rate) { call(y, rate); }, std::move(jacobian), dynamic_size) {}
+    Method(const Method&) = delete;
+    Method& operator=(const Method&) = delete;
+
+    /// The next step starts at y, after a change of phase.
+    void begin(const StateVector& y) {
+        start_ = y;
+        if (stiff_) {
+            implicit_.begin(y);
+        } else {
+            explicit_.begin(f_, y);
+        }
+        steps_ = 0;
+    }
+
+    void step(const S& h, const StateVector& weight) {
+        h_ = h;
+        if (stiff_) {
+            implicit_.step(h, weight);
+            end_ = implicit_.end();
+        } else {
+            explicit_.step(f_, h);
+            end_ = explicit_.end();
+        }
+    }
+
+    /// The step's local error in units of what is allowed.
+    [[nodiscard]] S error(const StateVector& weight) const { return stiff_ ? implicit_.error() : explicit_.error(weight); }
+
+    /// Evaluates the right-hand side at the step's end.
+    void finish() {
+        if (stiff_) {
+            implicit_.finish();
+        } else {
+            explicit_.finish(f_);
+        }
+    }
+
+    /// The step is taken and no phase has changed: the next starts at `end`, its end, possibly corrected.
+    void advance(const StateVector& end, const StateVector& weight) {
+        start_ = end;
+        if (stiff_) {
+            implicit_.advance(end);
+        } else {
+            explicit_.advance(end);
+        }
+        reconsider(weight);
+    }
+
+    /// Prepares `at` for the step; after `finish`.
+    void prepare_dense() {
+        if (!stiff_) explicit_.prepare_dense(f_);
+    }
+    [[nodiscard]] StateVector at(const S& theta) const {
+        return stiff_ ? StateVector(implicit_.at(theta)) : explicit_.at(theta);
+    }
+    [[nodiscard]] S at(const S& theta, Eigen::Index c) const {
+        return stiff_ ? implicit_.at(theta, c) : explicit_.at(theta, c);
+    }
+
+    [[nodiscard]] const StateVector& start() const noexcept { return start_; }
+    [[nodiscard]] const StateVector& end() const noexcept { return end_; }
+    [[nodiscard]] StateVector start_rate() const {
+        return stiff_ ? StateVector(implicit_.start_rate()) : explicit_.start_rate();
+    }
+    [[nodiscard]] StateVector end_rate() const {
+        return stiff_ ? StateVector(implicit_.end_rate()) : explicit_.end_rate();
+    }
+
+    [[nodiscard]] bool implicit() const noexcept { return stiff_; }
+    /// Nothing is stiff in flight.
+    void return_to_explicit() noexcept { stiff_ = false; }
+
+    /// After a refused step: whether the implicit method has failed to converge so often that the explicit one takes
+    /// over.
+    [[nodiscard]] bool gives_up(const S& error) {
+        using std::isfinite;
+        constexpr int often = 8;
+        failures_ = stiff_ && !isfinite(error) ? failures_ + 1 : 0;
+        if (failures_ < often) return false;
+        failures_ = 0;
+        leave_implicit();
+        return true;
+    }
+
+    /// The factor to the next step size that a step's error suggests: proportional-integral control, which keeps the
+    /// size from swinging where stability limits it (Hairer & Wanner, section IV.2).
+    [[nodiscard]] S growth(const S& error, bool refused) {
+        using std::isfinite, std::pow;
+        if (!isfinite(error)) return S(0.25);
+        const S exponent = S(1) / S(stiff_ ? RadauIIA<S>::estimate_order + 1 : DormandPrince853<StateVector>::order);
+        const S seen = std::max(error, S(1e-6));
+        S factor = S(0.9);
+        if (error > S(1)) {
+            factor *= pow(seen, -exponent);
+        } else {
+            constexpr double beta = 0.04;
+            factor *= pow(seen, S(0.75 * beta) - exponent) * pow(last_error_, S(beta));
+            last_error_ = seen;
+        }
+        return std::clamp<S>(factor, S(0.2), refused ? S(1) : S(6));
+    }
+
+private:
+    // The explicit method gives way once its steps are at the border of its stability, where accuracy would allow
+    // larger ones; the implicit one where its steps do not pay for their price.
+    void reconsider(const StateVector& weight) {
+        constexpr int look = 32;    // steps between looks
+        constexpr int price = 20;   // of an implicit step, in explicit ones
+        constexpr double border = 4;  // of h |lambda|: the stability region reaches to about 6
+        ++steps_;
+        if (!stiff_) {
+            if (steps_ < look * patience_) return;
+            steps_ = 0;
+            if (h_ * fastest_rate(weight) < S(border)) return;
+            stiff_ = true;
+            explicit_step_ = h_;
+            implicit_.begin(start_);
+        } else if (steps_ > 8 && h_ < S(price) * explicit_step_) {
+            leave_implicit();
+        }
+    }
+
+    void leave_implicit() {
+        stiff_ = false;
+        patience_ = std::min(2 * patience_, 64);
+        const StateVector y = start_;
+        begin(y);
+    }
+
+    // The spectral radius of the Jacobian, about: the mean growth of a vector under it.
+    [[nodiscard]] S fastest_rate(const StateVector& weight) {
+        jacobian_(start_, J_);
+        const auto n = J_.rows();
+        const auto w = weight.head(n).matrix();
+        const Matrix scaled = w.asDiagonal() * J_ * w.cwiseInverse().asDiagonal();
+        Eigen::Matrix<S, Eigen::Dynamic, 1> v = Eigen::Matrix<S, Eigen::Dynamic, 1>::LinSpaced(n, S(1), S(2));
+        constexpr int settle = 8, measure = 8;
+        S growth(1);
+        for (int k = 0; k < settle + measure; ++k) {
+            v = (scaled * v).eval();
+            const S size = v.norm();
+            if (!(size > S(0))) return S(0);
+            v /= size;
+            if (k >= settle) growth *= size;
+        }
+        using std::pow;
+        return pow(growth, S(1) / S(measure));
+    }
+
+    void call(const Vector& y, Vector& rate) {
+        state_ = y;
+        rate_.resizeLike(state_);
+        f_(state_, rate_);
+        rate = rate_;
+    }
+
+    F f_;
+    J jacobian_;
+    Matrix J_;
+    StateVector state_, rate_, start_, end_;
+    DormandPrince853<StateVector> explicit_;
+    RadauIIA<S> implicit_;
+    S h_{0}, last_error_{1};
+    bool stiff_ = false;
+    int failures_ = 0;  // of the implicit method in a row
+    int steps_ = 0;     // since the last look
+    int patience_ = 1;  // looks are this much rarer, after implicit steps that did not pay
+    S explicit_step_{0};
+};
+
+}  // namespace footfall

@@ -1,0 +1,43 @@
+// Keeps what a run gives back: samples, events, impacts, the ledger's residual.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "footfall/simulate/run.hpp"
+
+namespace footfall {
+
+class Recorder {
+public:
+    Recorder(double sample_period, double end_time) : period_(sample_period), end_(end_time) {}
+
+    void begin(Snapshot initial);
+    void end(Snapshot last, const Cost& cost);
+
+    /// When the next sample is due [s]; later than any time where none is.
+    [[nodiscard]] double next_sample() const noexcept;
+    void sample(Snapshot shot);
+
+    void event(EventKind kind, int sphere, Snapshot shot);
+
+    /// A depth and a force that contact `sphere` has reached.
+    void reached(int sphere, double depth, double normal_force) noexcept;
+
+    /// The account after a step.
+    void account(const Ledger& ledger) noexcept;
+
+    [[nodiscard]] Run& run() noexcept { return run_; }
+
+private:
+    [[nodiscard]] Impact* open_impact(int sphere) noexcept;
+
+    double period_, end_;
+    std::int64_t sampled_ = 0;  // samples taken so far
+    std::vector<int> open_;     // index of each sphere's impact in run_.impacts, or -1
+    std::vector<double> stuck_since_;
+    double largest_error_ = 0;  // [J]
+    Run run_;
+};
+
+}  // namespace footfall

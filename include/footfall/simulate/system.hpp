@@ -1,0 +1,339 @@
+// The equations of motion of a body in contact, with every phase frozen: smooth between events.
+//
+// The independent variable is sigma, with dt = g dsigma. In flight g = 1. With contacts, 1/g = sum of 1/s_i over the
+// spheres that touch, s_i = sqrt(z_i): for one contact dt = s dsigma, and nothing is singular where s = 0. The
+// force starts as sqrt(t - t0), but it is polynomial in sigma.
+#pragma once
+
+#include <array>
+#include <type_traits>
+#include <vector>
+
+#include "footfall/body/body.hpp"
+#include "footfall/law/contact_law.hpp"
+#include "footfall/math/dual.hpp"
+#include "footfall/math/vector.hpp"
+#include "footfall/simulate/layout.hpp"
+
+namespace footfall {
+
+/// Two unit vectors that complete the ground's normal to a right-handed frame (t1, t2, n). For n = z they are x and y.
+template <class S>
+struct GroundFrame {
+    Vector3<S> t1, t2, n;
+
+    explicit GroundFrame(const Eigen::Vector3d& normal) : n(normal.cast<S>()) {
+        // The world axis nearest to the plane, x where there is a choice, projected onto it.
+        const bool x_is_steep = std::abs(normal.x()) > 0.9;
+        const Eigen::Vector3d axis = x_is_steep ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
+        const Vector3<S> a = axis.cast<S>();
+        t1 = (a - n * n.dot(a)).normalized();
+        t2 = n.cross(t1);
+    }
+
+    [[nodiscard]] Vector2<S> to_plane(const Vector3<S>& v) const { return {t1.dot(v), t2.dot(v)}; }
+    [[nodiscard]] Vector3<S> to_world(const Vector2<S>& v) const { return t1 * v.x() + t2 * v.y(); }
+};
+
+/// One body on one plane, all contacts under the same kinds of law. `Law` is a ContactLaw over the scalar S.
+template <class Law, int Spheres>
+class System {
+public:
+    using S = typename Law::value_type;
+    using LawType = Law;
+    using StateVector = State<S, Spheres>;
+    /// For each contact three quantities that are positive while its phase lasts: the load (14), the clutch (26), s.
+    static constexpr int guards_per_contact = 3;
+    static constexpr int load_guard = 0, clutch_guard = 1, depth_guard = 2;
+    using Guards = Eigen::Array<S, Spheres == Eigen::Dynamic ? Eigen::Dynamic : guards_per_contact * Spheres, 1>;
+
+    System(const Body& body, const Ground& ground, const Eigen::Vector3d& gravity, std::vector<Law> laws)
+        : layout_{static_cast<int>(body.spheres.size())},
+          mass_(body.mass),
+          inertia_(body.inertia.cast<S>()),
+          inverse_inertia_(body.inertia.inverse().cast<S>()),
+          gravity_(gravity.cast<S>()),
+          frame_(ground.normal),
+          height_(ground.height),
+          laws_(std::move(laws)) {
+        isotropic_ = body.inertia.isApprox(Eigen::Matrix3d(body.inertia(0, 0) * Eigen::Matrix3d::Identity()), 0.0);
+        oriented_ = !isotropic_;
+        for (const Sphere& sphere : body.spheres) {
+            centers_.push_back(sphere.center.cast<S>());
+            radii_.push_back(S(sphere.radius));
+            oriented_ = oriented_ || !sphere.center.isZero(0);
+        }
+        phases_.assign(laws_.size(), Phase::flight);
+        contacts_.resize(laws_.size());
+    }
+
+    [[nodiscard]] const Layout<Spheres>& layout() const noexcept { return layout_; }
+    [[nodiscard]] const GroundFrame<S>& frame() const noexcept { return frame_; }
+    [[nodiscard]] const Law& law(int i) const noexcept { return laws_[index(i)]; }
+    [[nodiscard]] const S& radius(int i) const noexcept { return radii_[index(i)]; }
+    [[nodiscard]] int spheres() const noexcept { return layout_.spheres; }
+    [[nodiscard]] Phase phase(int i) const noexcept { return phases_[index(i)]; }
+    void set_phase(int i, Phase phase) noexcept { phases_[index(i)] = phase; }
+    [[nodiscard]] bool touches(int i) const noexcept { return phase(i) != Phase::flight; }
+    /// Whether the motion depends on the body's orientation; that of one homogeneous ball does not.
+    [[nodiscard]] bool oriented() const noexcept { return oriented_; }
+    [[nodiscard]] bool in_flight() const noexcept {
+        for (const Phase p : phases_)
+            if (p != Phase::flight) return false;
+        return true;
+    }
+
+    /// The same system over another scalar, for derivatives.
+    template <class T>
+    [[nodiscard]] auto cast() const;
+
+    /// How a sphere moves against the ground.
+    struct Kinematics {
+        Vector3<S> center;  ///< from the centre of mass to the sphere's centre, world [m]
+        Vector3<S> arm;     ///< from the centre of mass to the contact point, world [m]: the lever arm is r
+        S depth_rate;       ///< zdot [m/s]
+        Vector2<S> slip;    ///< V_sph in the ground's plane [m/s]. (36)
+    };
+
+    /// Position, velocity and rotation, unpacked once for all spheres.
+    struct Motion {
+        Vector3<S> position, velocity, angular_velocity;
+        Matrix3<S> rotation;
+    };
+
+    [[nodiscard]] Motion motion(const StateVector& y) const noexcept {
+        Motion m;
+        m.position = y.template segment<3>(Layout<Spheres>::position).matrix();
+        m.velocity = y.template segment<3>(Layout<Spheres>::velocity).matrix();
+        const Vector3<S> L = y.template segment<3>(Layout<Spheres>::momentum).matrix();
+        if (oriented_) {
+            const Quaternion<S> q(Vector4(y.template segment<4>(Layout<Spheres>::orientation).matrix()));
+            m.rotation = q.toRotationMatrix();
+        }
+        m.angular_velocity =
+            isotropic_ ? Vector3<S>(L * inverse_inertia_(0, 0))
+                       : Vector3<S>(m.rotation * (inverse_inertia_ * (m.rotation.transpose() * L)));
+        return m;
+    }
+
+    [[nodiscard]] Kinematics kinematics(const Motion& m, int i) const noexcept {
+        Kinematics k;
+        k.center = oriented_ ? Vector3<S>(m.rotation * centers_[index(i)]) : Vector3<S>(Vector3<S>::Zero());
+        k.arm = k.center - frame_.n * radius(i);
+        const Vector3<S> at_contact = m.velocity + m.angular_velocity.cross(k.arm);  // (36)
+        k.depth_rate = -frame_.n.dot(at_contact);
+        k.slip = frame_.to_plane(at_contact);
+        return k;
+    }
+
+    /// z from the body's position: negative where the sphere is above the ground [m].
+    [[nodiscard]] S geometric_depth(const Motion& m, const Kinematics& k, int i) const noexcept {
+        return radius(i) + height_ - frame_.n.dot(m.position + k.center);
+    }
+
+    [[nodiscard]] Vector2<S> bristle(const StateVector& y, int i) const noexcept {
+        return y.template segment<2>(layout_.bristle(i)).matrix();
+    }
+
+    /// What contact i does at y, in its phase.
+    [[nodiscard]] ContactResponse<S> response(const StateVector& y, const Kinematics& k, int i) const noexcept {
+        return law(i).respond(phase(i), root_depth(y, i), k.depth_rate, k.slip, bristle(y, i));
+    }
+
+    /// dy/dsigma and, where `guards` is given, what bounds the phases.
+    void evaluate(const StateVector& y, StateVector& rate, Guards* guards = nullptr) const noexcept {
+        const Motion m = motion(y);
+        Vector3<S> force = Vector3<S>::Zero(), torque = Vector3<S>::Zero();
+        for (int i = 0; i < spheres(); ++i) {
+            Contact& c = contacts_[index(i)];
+            if (!touches(i)) {
+                if (guards) c.kinematics = kinematics(m, i);
+                continue;
+            }
+            c.kinematics = kinematics(m, i);
+            c.response = response(y, c.kinematics, i);
+            const Vector3<S> f = frame_.n * c.response.normal_force + frame_.to_world(c.response.friction_force);
+            force += f;
+            torque += c.kinematics.arm.cross(f);
+        }
+        const Vector3<S> acceleration = gravity_ + force / mass_;  // (34)
+        if constexpr (Law::has_clutch) resolve_plastic_clutches(y, m, acceleration, torque);
+
+        const S g = time_rate(y);
+        rate.template segment<3>(Layout<Spheres>::position) = (m.velocity * g).array();
+        rate.template segment<3>(Layout<Spheres>::velocity) = (acceleration * g).array();
+        rate.template segment<3>(Layout<Spheres>::momentum) = (torque * g).array();  // (35)
+        rate.template segment<4>(Layout<Spheres>::orientation) = orientation_rate(y, m.angular_velocity * g);
+        rate[Layout<Spheres>::time] = g;
+        for (int i = 0; i < spheres(); ++i) contact_rate(y, rate, i, g);
+        if (guards) fill_guards(y, m, *guards);
+    }
+
+    /// s of contact i, never exactly zero, so that it can stand in a denominator.
+    [[nodiscard]] S root_depth(const StateVector& y, int i) const noexcept {
+        const S s = y[layout_.root_depth(i)];
+        return s == S(0) ? S(1e-150) : s;
+    }
+
+    /// g = dt/dsigma.
+    [[nodiscard]] S time_rate(const StateVector& y) const noexcept {
+        if constexpr (Spheres == 1) {
+            return touches(0) ? root_depth(y, 0) : S(1);
+        } else {
+            S sum(0);
+            for (int i = 0; i < spheres(); ++i)
+                if (touches(i)) sum += S(1) / root_depth(y, i);
+            return sum == S(0) ? S(1) : S(1) / sum;
+        }
+    }
+
+    [[nodiscard]] S kinetic_energy(const StateVector& y, const Motion& m) const noexcept {
+        const Vector3<S> L = y.template segment<3>(Layout<Spheres>::momentum).matrix();
+        return S(0.5) * (mass_ * m.velocity.squaredNorm() + m.angular_velocity.dot(L));  // (37)
+    }
+    [[nodiscard]] S potential_energy(const Motion& m) const noexcept { return -mass_ * gravity_.dot(m.position); }
+
+private:
+    using Vector4 = Eigen::Matrix<S, 4, 1>;
+
+    struct Contact {
+        Kinematics kinematics;
+        ContactResponse<S> response;
+        S load_rate = S(0);  // d(F_n / s^ScalePower)/dt, where a plastic clutch asks for it
+    };
+
+    static constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+
+    // Where D_t = C_V = 0 the clutch's velocity depends on how fast its load changes, thus on the acceleration.
+    void resolve_plastic_clutches(const StateVector& y, const Motion& m, const Vector3<S>& acceleration,
+                                  const Vector3<S>& torque) const noexcept {
+        for (int i = 0; i < spheres(); ++i) {
+            if (phase(i) != Phase::slip || !law(i).friction.plastic()) continue;
+            Contact& c = contacts_[index(i)];
+            const Vector3<S>& omega = m.angular_velocity;
+            const Vector3<S> L = y.template segment<3>(Layout<Spheres>::momentum).matrix();
+            const Vector3<S> turning = torque - omega.cross(L);
+            const Vector3<S> spin_up =
+                isotropic_ ? Vector3<S>(turning * inverse_inertia_(0, 0))
+                           : Vector3<S>(m.rotation * (inverse_inertia_ * (m.rotation.transpose() * turning)));
+            const Vector3<S>& rho = c.kinematics.center;
+            const S z_accel = -frame_.n.dot(acceleration + spin_up.cross(rho) + omega.cross(omega.cross(rho)));
+
+            using D = Dual<S, 1>;
+            const S s = root_depth(y, i);
+            const D moving_s(s, {c.kinematics.depth_rate / (S(2) * s)});
+            const D moving_rate(c.kinematics.depth_rate, {z_accel});
+            c.load_rate = law(i)
+                              .normal.template cast<D>()
+                              .template force<Law::ScalePower>(moving_s, moving_rate)
+                              .total()
+                              .gradient[0];
+            c.response = law(i).respond(Phase::slip, s, c.kinematics.depth_rate, c.kinematics.slip, bristle(y, i),
+                                        c.load_rate);
+        }
+    }
+
+    [[nodiscard]] Eigen::Array<S, 4, 1> orientation_rate(const StateVector& y, const Vector3<S>& w) const noexcept {
+        // qdot = (1/2) (0, omega) q
+        const auto q = y.template segment<4>(Layout<Spheres>::orientation);
+        const S half(0.5);
+        return {half * (w.x() * q[3] + w.y() * q[2] - w.z() * q[1]), half * (w.y() * q[3] + w.z() * q[0] - w.x() * q[2]),
+                half * (w.z() * q[3] + w.x() * q[1] - w.y() * q[0]),
+                -half * (w.x() * q[0] + w.y() * q[1] + w.z() * q[2])};
+    }
+
+    void contact_rate(const StateVector& y, StateVector& rate, int i, const S& g) const noexcept {
+        const int b = layout_.bristle(i), e = layout_.ledger(i);
+        if (!touches(i)) {
+            // s stays 0. The bristle recovers as an exponential that the simulator applies in closed form.
+            rate[layout_.root_depth(i)] = S(0);
+            rate[b] = rate[b + 1] = S(0);
+            for (int k = 0; k < Layout<Spheres>::ledger_per_contact; ++k) rate[e + k] = S(0);
+            return;
+        }
+        const Contact& c = contacts_[index(i)];
+        const ContactResponse<S>& r = c.response;
+        S share(0.5);  // g / (2 s)
+        if constexpr (Spheres != 1) share = g / (S(2) * root_depth(y, i));
+        rate[layout_.root_depth(i)] = c.kinematics.depth_rate * share;
+        rate[b] = r.bristle_rate.x() * g;
+        rate[b + 1] = r.bristle_rate.y() * g;
+        rate[e + Layout<Spheres>::normal_damper] = r.normal_damper_power * g;
+        rate[e + Layout<Spheres>::tangential_damper] = r.tangential_damper_power * g;
+        rate[e + Layout<Spheres>::clutch] = r.clutch_power * g;
+        rate[e + Layout<Spheres>::stiffness_change] = r.stiffness_change_power * g;
+    }
+
+    void fill_guards(const StateVector& y, const Motion& m, Guards& guards) const noexcept {
+        for (int i = 0; i < spheres(); ++i) {
+            const Contact& c = contacts_[index(i)];
+            S& load = guards[guards_per_contact * i + load_guard];
+            S& clutch = guards[guards_per_contact * i + clutch_guard];
+            S& depth = guards[guards_per_contact * i + depth_guard];
+            clutch = depth = S(1);
+            if (!touches(i)) {
+                load = -geometric_depth(m, c.kinematics, i);
+                continue;
+            }
+            const S s = root_depth(y, i);
+            const Law& l = law(i);
+            depth = s;
+            load = l.normal.load(s, c.kinematics.depth_rate);
+            if (phase(i) == Phase::recovering) {
+                load = -load;
+                continue;
+            }
+            if constexpr (Law::has_clutch) {
+                const S phi_n = l.normal.template force<Law::ScalePower>(s, c.kinematics.depth_rate).total();
+                const Vector2<S>& V = c.kinematics.slip;
+                clutch = phase(i) == Phase::stick
+                             ? l.friction.cone_margin(phi_n, V, bristle(y, i))
+                             : l.friction.slip_margin(l.friction.scale(s), phi_n, c.load_rate, V, bristle(y, i));
+            }
+        }
+    }
+
+    template <class, int>
+    friend class System;
+    System() : frame_(Eigen::Vector3d::UnitZ()) {}
+
+    Layout<Spheres> layout_;
+    S mass_;
+    Matrix3<S> inertia_, inverse_inertia_;
+    bool isotropic_ = false;  // inertia is a multiple of the identity: omega = L / I
+    bool oriented_ = false;   // the motion depends on the orientation
+    Vector3<S> gravity_;
+    GroundFrame<S> frame_;
+    S height_;
+    std::vector<Vector3<S>> centers_;
+    std::vector<S> radii_;
+    std::vector<Law> laws_;
+    std::vector<Phase> phases_;
+    mutable std::vector<Contact> contacts_;  // scratch of evaluate
+};
+
+template <class Law, int Spheres>
+template <class T>
+auto System<Law, Spheres>::cast() const {
+    using Cast = decltype(std::declval<Law>().template cast<T>());
+    System<Cast, Spheres> other;
+    other.layout_ = layout_;
+    other.mass_ = T(mass_);
+    other.inertia_ = inertia_.template cast<T>();
+    other.inverse_inertia_ = inverse_inertia_.template cast<T>();
+    other.isotropic_ = isotropic_;
+    other.oriented_ = oriented_;
+    other.gravity_ = gravity_.template cast<T>();
+    other.frame_.t1 = frame_.t1.template cast<T>();
+    other.frame_.t2 = frame_.t2.template cast<T>();
+    other.frame_.n = frame_.n.template cast<T>();
+    other.height_ = T(height_);
+    for (const auto& c : centers_) other.centers_.push_back(c.template cast<T>());
+    for (const auto& r : radii_) other.radii_.push_back(T(r));
+    for (const auto& l : laws_) other.laws_.push_back(l.template cast<T>());
+    other.phases_ = phases_;
+    other.contacts_.resize(contacts_.size());
+    return other;
+}
+
+}  // namespace footfall

@@ -1,0 +1,57 @@
+#!/bin/sh
+# Installs the Debian or Ubuntu packages that footfall is built from, where they are missing.
+#
+#   install-deps.sh           the library and the command line
+#   install-deps.sh --test    and the tests and benchmarks
+#   install-deps.sh --dev     and what .ci/run checks with
+#
+# Touches nothing, and needs neither network nor rights, where everything is there.
+set -eu
+
+packages="g++ cmake ninja-build pkg-config
+    libeigen3-dev libboost-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libnetcdf-dev libcli11-dev"
+test_packages="libgtest-dev librapidcheck-dev libsundials-dev"
+dev_packages="ccache clang-format-16 clang-tidy-16 git python3"
+
+case "${1-}" in
+    "") ;;
+    --test) packages="$packages $test_packages" ;;
+    --dev) packages="$packages $test_packages $dev_packages" ;;
+    *)
+        echo "install-deps.sh: unknown argument '$1'; allowed: --test, --dev, or none" >&2
+        exit 2
+        ;;
+esac
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    echo "install-deps.sh: not a Debian or Ubuntu machine; going on with what is installed." >&2
+    exit 0
+fi
+
+missing=""
+for package in $packages; do
+    # Not `dpkg-query -W` alone: it also knows packages that were removed.
+    status=$(dpkg-query -W -f='${db:Status-Status} ' "$package" 2>/dev/null) || status=""
+    case " $status" in
+        *" installed "*) ;;
+        *) missing="$missing $package" ;;
+    esac
+done
+[ -n "$missing" ] || exit 0
+
+if [ "$(id -u)" -eq 0 ]; then
+    sudo=""
+elif command -v sudo >/dev/null; then
+    sudo="sudo"
+else
+    echo "install-deps.sh: these packages are missing, and installing them needs root or sudo:" >&2
+    echo "    apt-get install$missing" >&2
+    exit 1
+fi
+
+echo "Installing:$missing"
+export DEBIAN_FRONTEND=noninteractive
+if ! { $sudo apt-get update -q && $sudo apt-get install -q -y --no-install-recommends $missing; }; then
+    echo "install-deps.sh: apt-get failed. Missing:$missing" >&2
+    exit 1
+fi

@@ -1,0 +1,187 @@
+// A run as three tables of comma-separated values.
+#include <cerrno>
+#include <cmath>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "footfall/io/output.hpp"
+#include "io/atomic_file.hpp"
+#include "io/columns.hpp"
+
+namespace footfall {
+namespace fs = std::filesystem;
+namespace {
+
+/// One table: a row is started, filled cell by cell, and ended. Numbers are written so that they read back exactly.
+class Table {
+public:
+    explicit Table(const fs::path& target) : file_(target) {}
+
+    void heading(std::string_view name, std::string_view unit) {
+        separate();
+        fmt::format_to(std::back_inserter(pending_), "{} [{}]", name, unit);
+    }
+    void text(std::string_view value) {
+        separate();
+        pending_ += value;
+    }
+    void number(double value) {
+        separate();
+        fmt::format_to(std::back_inserter(pending_), "{}", value);
+    }
+    void number(int value) {
+        separate();
+        fmt::format_to(std::back_inserter(pending_), "{}", value);
+    }
+    /// An empty cell stands for what has not happened.
+    void number_or_empty(double value) {
+        if (std::isnan(value)) {
+            separate();
+        } else {
+            number(value);
+        }
+    }
+    void end_row() {
+        constexpr std::size_t block = 1 << 20;
+        pending_ += '\n';
+        first_ = true;
+        if (pending_.size() >= block) flush();
+    }
+
+    void finish() {
+        flush();
+        file_.finish();
+    }
+    void commit() { file_.commit(); }
+
+private:
+    void separate() {
+        if (!first_) pending_ += ',';
+        first_ = false;
+    }
+    void flush() {
+        file_.write(pending_);
+        pending_.clear();
+    }
+
+    AtomicFile file_;
+    std::string pending_;
+    bool first_ = true;
+};
+
+template <class Of>
+void headings(Table& table, std::span<const columns::Column<Of>> list, std::string_view prefix,
+              std::string_view suffix) {
+    for (const auto& column : list) {
+        const std::string name = fmt::format("{}{}{}", prefix, column.name, suffix);
+        if (column.shape == columns::Shape::scalar) table.heading(name, column.unit);
+        for (const std::string_view label : columns::labels(column.shape)) {
+            table.heading(fmt::format("{}_{}", name, label), column.unit);
+        }
+    }
+}
+
+template <class Of>
+void cells(Table& table, std::span<const columns::Column<Of>> list, const Of& object) {
+    for (const auto& column : list) {
+        std::array<double, 4> values{};
+        column.read(object, values.data());
+        for (std::size_t i = 0; i < columns::size(column.shape); ++i) table.number_or_empty(values[i]);
+    }
+}
+
+void fill_samples(Table& table, const Scenario& scenario, const Run& run) {
+    const std::size_t spheres = scenario.simulation.body.spheres.size();
+    table.heading("time", "s");
+    headings<BodyState>(table, columns::body, "", "");
+    for (std::size_t i = 0; i < spheres; ++i) {
+        const std::string suffix = fmt::format("_{}", i);
+        table.text("phase" + suffix);
+        headings<ContactSnapshot>(table, columns::contact, "", suffix);
+        headings<ContactEnergy>(table, columns::contact_energy, "energy_", suffix);
+    }
+    headings<Ledger>(table, columns::body_energy, "energy_", "");
+    headings<ContactEnergy>(table, columns::contact_energy, "energy_", "");
+    table.heading("energy_total", "J");
+    table.heading("energy_residual", "1");
+    table.end_row();
+
+    for (const Snapshot& sample : run.samples) {
+        table.number(sample.time);
+        cells<BodyState>(table, columns::body, sample.body);
+        for (const ContactSnapshot& contact : sample.contacts) {
+            table.text(name_of(contact.phase));
+            cells<ContactSnapshot>(table, columns::contact, contact);
+            cells<ContactEnergy>(table, columns::contact_energy, contact.energy);
+        }
+        cells<Ledger>(table, columns::body_energy, sample.ledger);
+        cells<ContactEnergy>(table, columns::contact_energy, sample.ledger.contact);
+        table.number(sample.ledger.total());
+        table.number(columns::residual(run, sample.ledger));
+        table.end_row();
+    }
+}
+
+void fill_events(Table& table, const Run& run) {
+    table.heading("time", "s");
+    table.text("kind");
+    table.text("sphere");
+    headings<BodyState>(table, columns::body, "", "");
+    headings<ContactSnapshot>(table, columns::contact, "", "");
+    table.end_row();
+    for (const Event& event : run.events) {
+        table.number(event.time);
+        table.text(name_of(event.kind));
+        table.number(event.sphere);
+        cells<BodyState>(table, columns::body, event.state.body);
+        cells<ContactSnapshot>(table, columns::contact, event.state.contacts.at(event.sphere));
+        table.end_row();
+    }
+}
+
+void fill_impacts(Table& table, const Run& run) {
+    table.text("sphere");
+    headings<Impact>(table, columns::impact, "", "");
+    table.end_row();
+    for (const Impact& impact : run.impacts) {
+        table.number(impact.sphere);
+        cells<Impact>(table, columns::impact, impact);
+        table.end_row();
+    }
+}
+
+}  // namespace
+
+void check_csv_directory(const fs::path& directory) {
+    std::error_code error;
+    fs::path existing = fs::absolute(directory);
+    while (!fs::exists(existing, error) && existing.has_relative_path()) existing = existing.parent_path();
+    if (!fs::is_directory(existing, error))
+        fail_to_write(directory, fmt::format("{} is not a folder", existing.string()));
+    if (::access(existing.c_str(), W_OK | X_OK) != 0) {
+        fail_to_write(directory,
+                      fmt::format("the folder {}: {}", existing.string(), std::generic_category().message(errno)));
+    }
+}
+
+void write_csv(const fs::path& directory, const Scenario& scenario, const Run& run) {
+    check_csv_directory(directory);
+    std::error_code error;
+    fs::create_directories(directory, error);
+    if (error) fail_to_write(directory, error.message());
+
+    Table samples(directory / "samples.csv");
+    Table events(directory / "events.csv");
+    Table impacts(directory / "impacts.csv");
+    fill_samples(samples, scenario, run);
+    fill_events(events, run);
+    fill_impacts(impacts, run);
+    // No table takes its place before all of them are complete.
+    for (Table* table : {&samples, &events, &impacts}) table->finish();
+    for (Table* table : {&samples, &events, &impacts}) table->commit();
+}
+
+}  // namespace footfall

@@ -1,0 +1,33 @@
+// What is wrong with a file, and where.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "footfall/io/scenario.hpp"
+
+namespace footfall::io {
+
+/// A place in a file, from 1. Columns count characters.
+struct Position {
+    int line = 1;
+    int column = 1;
+};
+
+/// Collects what is wrong with a file, so that a user sees all of it at once.
+class Problems {
+public:
+    explicit Problems(std::string file) : file_(std::move(file)) {}
+
+    void add(Position at, std::string message);
+    [[nodiscard]] bool empty() const noexcept { return problems_.empty(); }
+    /// Throws ScenarioError with every problem, in the order of the file; does nothing where there is none.
+    void throw_if_any() const;
+
+private:
+    std::string file_;
+    std::vector<ScenarioProblem> problems_;
+};
+
+}  // namespace footfall::io

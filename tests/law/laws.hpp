@@ -1,0 +1,117 @@
+// The laws of the registry as type lists, and random laws and states to try them on.
+#pragma once
+
+#include <cmath>
+#include <string_view>
+#include <tuple>
+#include <variant>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "footfall/law/contact_law.hpp"
+#include "footfall/law/registry.hpp"
+#include "math/random_real.hpp"
+
+namespace footfall::test {
+
+template <class Variant>
+struct TypesOf;
+template <class... Laws>
+struct TypesOf<std::variant<Laws...>> {
+    using type = ::testing::Types<Laws...>;
+};
+using NormalLaws = TypesOf<NormalLaw>::type;
+
+/// The friction laws that have a bristle.
+using BristleLaws = ::testing::Types<AzadFeatherstoneFriction<>, LinearFriction<>>;
+
+/// Every normal law with every friction law.
+template <class Normals, class Frictions>
+struct PairsOf;
+template <class... Normals, class... Frictions>
+struct PairsOf<std::variant<Normals...>, std::variant<Frictions...>> {
+    template <class Normal>
+    using row = std::tuple<ContactLaw<Normal, Frictions>...>;
+    template <class... Laws>
+    static ::testing::Types<Laws...> listed(const std::tuple<Laws...>&);
+    using type = decltype(listed(std::tuple_cat(std::declval<row<Normals>>()...)));
+};
+using ContactLaws = PairsOf<NormalLaw, FrictionLaw>::type;
+
+/// Names typed tests after the law, not after its position in the list.
+struct LawNames {
+    template <class Law>
+    static std::string GetName(int i) {
+        if constexpr (requires { Law::description; }) {
+            return std::to_string(i) + "_" + tidy(Law::description.name);
+        } else {
+            return std::to_string(i) + "_" + tidy(decltype(Law::normal)::description.name) + "_" +
+                   tidy(decltype(Law::friction)::description.name);
+        }
+    }
+
+private:
+    static std::string tidy(std::string_view name) {
+        std::string out(name);
+        for (char& c : out)
+            if (c == '-') c = '_';
+        return out;
+    }
+};
+
+inline bool coin() { return *rc::gen::arbitrary<bool>(); }
+
+/// A law with every parameter drawn from its range, zero and the values left out among them.
+template <class Law>
+Law random_law() {
+    Law law{};
+    const bool fallbacks = coin();
+    for (const auto& parameter : Law::parameters()) {
+        double value = 0;
+        if (parameter.fallback && fallbacks) {
+            value = *parameter.fallback;
+        } else if (parameter.may_be_zero() && *rc::gen::inRange(0, 5) == 0) {
+            value = 0;
+        } else {
+            value = parameter.unit == "1" ? *uniform(0.3, 2.5) : *decades(1e-2, 1e6);
+        }
+        law.*parameter.member = value;
+    }
+    return law;
+}
+
+template <class Law>
+Law random_contact_law() {
+    return {random_law<decltype(Law::normal)>(), random_law<decltype(Law::friction)>()};
+}
+
+/// A vector of a length from some decades, pointing anywhere.
+inline Vector2<double> random_vector(double shortest, double longest) {
+    const double length = *decades(shortest, longest), angle = *uniform(0, 6.283185307179586);
+    return {length * std::cos(angle), length * std::sin(angle)};
+}
+
+/// Where a sphere is and how it moves.
+struct ContactState {
+    double depth = *decades(1e-8, 1e-2);
+    double rate = (coin() ? 1 : -1) * *decades(1e-4, 1e1);
+    Vector2<double> V = random_vector(1e-4, 1e1);
+    Vector2<double> u = random_vector(1e-8, 1e-2);
+
+    double s() const { return std::sqrt(depth); }
+};
+
+/// The derivative of a function of one number at x, in long double: error of order h^4. `f` may return a vector.
+template <class F>
+auto difference(const F& f, long double x) {
+    using Value = decltype(f(x));
+    const long double h = 1e-4L * std::abs(x);
+    const auto central = [&](long double step) { return Value((f(x + step) - f(x - step)) / (2 * step)); };
+    const Value wide = central(h), narrow = central(h / 2);
+    return Value((narrow * 4 - wide) / 3);
+}
+
+inline bool near(double a, double b, double tolerance) { return std::abs(a - b) <= tolerance; }
+
+}  // namespace footfall::test
