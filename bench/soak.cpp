@@ -1,8 +1,5 @@
 // Runs many random valid scenarios and checks each: it ends, every number in it is finite, the ledger closes, and no
 // dissipation channel ever gives anything back. A failure prints its seed; `soak --seed N --scenarios 1` repeats it.
-#include <fmt/core.h>
-
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -10,6 +7,9 @@
 #include <numbers>
 #include <random>
 #include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
 
 #include "footfall/simulate/run.hpp"
 
@@ -55,8 +55,9 @@ private:
     void draw_ground(Simulation& s) {
         if (chance(0.5)) {
             const double slope = uniform(0, std::numbers::pi / 3), around = uniform(0, 2 * std::numbers::pi);
-            s.ground.normal = Eigen::Vector3d(std::sin(slope) * std::cos(around), std::sin(slope) * std::sin(around),
-                                              std::cos(slope)).normalized();
+            s.ground.normal =
+                Eigen::Vector3d(std::sin(slope) * std::cos(around), std::sin(slope) * std::sin(around), std::cos(slope))
+                    .normalized();
         }
         if (chance(0.5)) s.ground.height = uniform(-1, 1);
         s.gravity = chance(0.1) ? Eigen::Vector3d::Zero() : Eigen::Vector3d(0, 0, -9.81 * decades(-1, 1));
@@ -76,7 +77,8 @@ private:
         }
         if (spheres == 4 && chance(0.5)) {  // a flat foot: its spheres land together
             const double a = radius_ * uniform(1, 6), b = radius_ * uniform(1, 6);
-            for (int i = 0; i < 4; ++i) s.body.spheres[static_cast<std::size_t>(i)] = {{i & 1 ? a : -a, i & 2 ? b : -b, 0}, radius_};
+            for (int i = 0; i < 4; ++i)
+                s.body.spheres[static_cast<std::size_t>(i)] = {{i & 1 ? a : -a, i & 2 ? b : -b, 0}, radius_};
             flat_ = true;
         }
         if (ball) {
@@ -84,10 +86,11 @@ private:
             return;
         }
         // Moments of a distribution of mass with these variances along its axes: always those of a body.
-        const Eigen::Vector3d variance = Eigen::Vector3d(uniform(0.05, 1), uniform(0.05, 1), uniform(0.05, 1)) *
-                                         mass_ * extent * extent * 0.2;
+        const Eigen::Vector3d variance =
+            Eigen::Vector3d(uniform(0.05, 1), uniform(0.05, 1), uniform(0.05, 1)) * mass_ * extent * extent * 0.2;
         const Eigen::Vector3d moments(variance[1] + variance[2], variance[0] + variance[2], variance[0] + variance[1]);
-        const Eigen::Matrix3d R = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), direction()).toRotationMatrix();
+        const Eigen::Matrix3d R =
+            Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), direction()).toRotationMatrix();
         s.body.inertia = R * moments.asDiagonal() * R.transpose();
         s.body.inertia = (0.5 * (s.body.inertia + s.body.inertia.transpose())).eval();
     }
@@ -190,7 +193,8 @@ std::string verdict(const Run& run, double tolerance) {
         if (k == 0) continue;
         for (std::size_t i = 0; i < run.samples[k].contacts.size(); ++i) {
             const ContactEnergy &a = run.samples[k - 1].contacts[i].energy, &b = run.samples[k].contacts[i].energy;
-            if (b.normal_damper < a.normal_damper - slack) return fmt::format("normal damper of sphere {} gives back", i);
+            if (b.normal_damper < a.normal_damper - slack)
+                return fmt::format("normal damper of sphere {} gives back", i);
             if (b.tangential_damper < a.tangential_damper - slack)
                 return fmt::format("tangential damper of sphere {} gives back", i);
             if (b.clutch < a.clutch - slack) return fmt::format("clutch of sphere {} gives back", i);
@@ -208,8 +212,8 @@ std::string description(const Simulation& s) {
     };
     std::visit(note, s.contacts[0].normal);
     std::visit(note, s.contacts[0].friction);
-    return fmt::format("{} + {},{} {} sphere(s){}{}", name_of(s.contacts[0].normal), name_of(s.contacts[0].friction), zeros,
-                       s.body.spheres.size(), s.gravity.isZero() ? ", no gravity" : "",
+    return fmt::format("{} + {},{} {} sphere(s){}{}", name_of(s.contacts[0].normal), name_of(s.contacts[0].friction),
+                       zeros, s.body.spheres.size(), s.gravity.isZero() ? ", no gravity" : "",
                        s.options.allow_initial_penetration ? ", starts in the ground" : "");
 }
 

@@ -31,6 +31,8 @@ target_compile_options(footfall_build_settings INTERFACE
     # Nobody reads errno after sqrt; without this the compiler keeps a branch and a call for it. Changes no result.
     -fno-math-errno
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+    # Designated initializers leave out what has a default.
+    -Wno-missing-field-initializers
     # GCC 12 warns of std::string's own operator+ (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
     $<$<BOOL:${FOOTFALL_WARNINGS_AS_ERRORS}>:-Werror>)

@@ -1,9 +1,9 @@
 #include "footfall/body/body.hpp"
 
-#include <fmt/core.h>
+#include <cmath>
 
 #include <Eigen/Eigenvalues>
-#include <cmath>
+#include <fmt/core.h>
 
 #include "footfall/math/error.hpp"
 
@@ -23,9 +23,10 @@ void check_inertia(const Eigen::Matrix3d& inertia) {
                                        moments[0], moments[1], moments[2]));
     // The moments are in increasing order. Flat bodies reach equality, rounding takes them a little past it.
     if (moments[2] > moments[0] + moments[1] + 1e-12 * size)
-        throw InvalidInput(fmt::format(
-            "body: inertia has the principal moments {}, {}, {} kg m^2; no body has one larger than the sum of the others",
-            moments[0], moments[1], moments[2]));
+        throw InvalidInput(
+            fmt::format("body: inertia has the principal moments {}, {}, {} kg m^2; no body has one larger than the "
+                        "sum of the others",
+                        moments[0], moments[1], moments[2]));
 }
 
 }  // namespace
@@ -45,8 +46,7 @@ void check(const Body& body) {
 
 void check(const Ground& ground) {
     if (!ground.normal.allFinite() || std::abs(ground.normal.norm() - 1) > 1e-12)
-        throw InvalidInput(
-            fmt::format("ground: normal has length {}; it must be a unit vector", ground.normal.norm()));
+        throw InvalidInput(fmt::format("ground: normal has length {}; it must be a unit vector", ground.normal.norm()));
     if (!std::isfinite(ground.height)) throw InvalidInput("ground: height is not finite");
 }
 

@@ -25,8 +25,8 @@ bool Range::bounded() const noexcept { return std::isfinite(low) || std::isfinit
 
 std::string Range::words(const std::string& unit) const {
     if (!bounded()) return "";
-    const std::string above = fmt::format("{} {}", low_open ? ">" : ">=", bound(low, unit));
-    const std::string below = fmt::format("{} {}", high_open ? "<" : "<=", bound(high, unit));
+    std::string above = fmt::format("{} {}", low_open ? ">" : ">=", bound(low, unit));
+    std::string below = fmt::format("{} {}", high_open ? "<" : "<=", bound(high, unit));
     if (!std::isfinite(high)) return above;
     if (!std::isfinite(low)) return below;
     if (!low_open && !high_open) return fmt::format("from {} to {}", bound(low, unit), bound(high, unit));

@@ -56,7 +56,7 @@ struct Key {
     std::string example = {};        ///< a value as written in a file
     std::string refused = {};        ///< not empty: the key cannot stand here, and this says why
     std::string description = {};    ///< one phrase
-    std::vector<Table> tables = {};  ///< the table of Form::table and Form::tables, once
+    std::vector<Table> tables;       ///< the table of Form::table and Form::tables, once
 };
 
 /// One set of further keys, chosen by the value of Table::selector.

@@ -1,8 +1,8 @@
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <fmt/core.h>
 
 #include "footfall/simulate/run.hpp"
 

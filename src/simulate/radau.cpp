@@ -1,8 +1,9 @@
 #include "footfall/simulate/radau.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
+
+#include <Eigen/Eigenvalues>
 
 namespace footfall {
 
@@ -17,12 +18,12 @@ struct Coefficients {
     using Square = Eigen::Matrix<Real, s, s>;
     using Column = Eigen::Matrix<Real, s, 1>;
 
-    Column c;            // nodes
-    Square A;            // stage weights; the last row is b
-    Column estimate;     // weights of Z in the error estimate
-    Column estimate_f;   // weights of h f at the stages, the same estimate
-    Real gamma0;         // weight of h f(y0) there
-    Real lambda_real;    // the real eigenvalue of A^-1
+    Column c;                       // nodes
+    Square A;                       // stage weights; the last row is b
+    Column estimate;                // weights of Z in the error estimate
+    Column estimate_f;              // weights of h f at the stages, the same estimate
+    Real gamma0;                    // weight of h f(y0) there
+    Real lambda_real;               // the real eigenvalue of A^-1
     std::array<Complex, 2> lambda;  // those with positive imaginary part
     // Z = T_real w + 2 Re(T_1 w_1 + T_2 w_2), and the rows that give w from Z
     Column T_real, from_Z_real;
@@ -127,8 +128,8 @@ Vector interpolate(const S& theta, const Stages& Z, const Vector& y0) {
 }  // namespace
 
 template <class S>
-RadauIIA<S>::RadauIIA(Function f, Jacobian jacobian, int dynamic_size)
-    : f_(std::move(f)), jacobian_(std::move(jacobian)), dynamic_(dynamic_size) {}
+RadauIIA<S>::RadauIIA(Function f, Jacobian jacobian, int motion)
+    : f_(std::move(f)), jacobian_(std::move(jacobian)), motion_(motion) {}
 
 template <class S>
 void RadauIIA<S>::begin(const Vector& y) {
@@ -167,10 +168,10 @@ void RadauIIA<S>::step(const S& h, const Vector& weight) {
 template <class S>
 void RadauIIA<S>::factorize(const S& h) {
     const auto& table = coefficients();
-    real_.compute(Matrix::Identity(dynamic_, dynamic_) * (S(table.lambda_real) / h) - J_);
+    real_.compute(Matrix::Identity(motion_, motion_) * (S(table.lambda_real) / h) - J_);
     for (std::size_t p = 0; p < 2; ++p) {
         const Complex shift = Complex(S(table.lambda[p].real()), S(table.lambda[p].imag())) / h;
-        complex_[p].compute(Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>::Identity(dynamic_, dynamic_) * shift -
+        complex_[p].compute(Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic>::Identity(motion_, motion_) * shift -
                             J_.template cast<Complex>());
     }
 }
@@ -178,7 +179,7 @@ void RadauIIA<S>::factorize(const S& h) {
 template <class S>
 bool RadauIIA<S>::solve_stages(const S& h, const Vector& weight) {
     const auto& table = coefficients();
-    const auto n = static_cast<Eigen::Index>(dynamic_);
+    const auto n = static_cast<Eigen::Index>(motion_);
     for (int i = 0; i < stages; ++i) {
         Vector& z = Z_[static_cast<std::size_t>(i)];
         if (has_previous_) {
@@ -228,7 +229,8 @@ bool RadauIIA<S>::solve_stages(const S& h, const Vector& weight) {
         }
         if (!std::isfinite(static_cast<double>(change))) return false;
         const S ratio = iteration > 0 ? change / last : S(0);
-        const bool done = change < S(1e-3) || (iteration > 0 && ratio < S(1) && change * ratio / (S(1) - ratio) < S(1e-3));
+        const bool done =
+            change < S(1e-3) || (iteration > 0 && ratio < S(1) && change * ratio / (S(1) - ratio) < S(1e-3));
         if (!done && iteration > 0 && ratio > S(0.99)) {
             if (change < S(0.1)) break;  // rounding: it gets no better
             return false;
@@ -254,7 +256,7 @@ bool RadauIIA<S>::solve_stages(const S& h, const Vector& weight) {
 template <class S>
 S RadauIIA<S>::estimate(const S& h, const Vector& weight) {
     const auto& table = coefficients();
-    const auto n = static_cast<Eigen::Index>(dynamic_);
+    const auto n = static_cast<Eigen::Index>(motion_);
     Eigen::Matrix<S, Eigen::Dynamic, 1> from_stages = Eigen::Matrix<S, Eigen::Dynamic, 1>::Zero(n);
     for (std::size_t i = 0; i < stages; ++i)
         from_stages += S(table.estimate[static_cast<int>(i)]) * Z_[i].head(n).matrix();

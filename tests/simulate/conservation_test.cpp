@@ -68,14 +68,15 @@ TEST(FreeFlight, IsAParabola) {
     s.initial.velocity = {0.4, -1.1, 2};
     const auto run = footfall::run(s);
     const double t = 0.7;
-    EXPECT_LE((run.final.body.position - (s.initial.position + t * s.initial.velocity + t * t / 2 * s.gravity)).norm(), 1e-14);
+    EXPECT_LE((run.final.body.position - (s.initial.position + t * s.initial.velocity + t * t / 2 * s.gravity)).norm(),
+              1e-14);
     EXPECT_LE((run.final.body.velocity - (s.initial.velocity + t * s.gravity)).norm(), 1e-14);
     EXPECT_TRUE(run.events.empty());
 }
 
 std::vector<NormalLaw> elastic_laws() {
-    return {AzadFeatherstoneNormal<>{8.5e6, 0}, HuntCrossleyNormal<>{8.5e6, 0}, HuntCrossleyNormal<>{1e5, 0, 1.2, 0.7, 1},
-            LinearNormal<>{1e5, 0}};
+    return {AzadFeatherstoneNormal<>{8.5e6, 0}, HuntCrossleyNormal<>{8.5e6, 0},
+            HuntCrossleyNormal<>{1e5, 0, 1.2, 0.7, 1}, LinearNormal<>{1e5, 0}};
 }
 
 TEST(ElasticImpact, ReturnsTheSpeed) {
@@ -88,7 +89,8 @@ TEST(ElasticImpact, ReturnsTheSpeed) {
         ASSERT_EQ(run.impacts.size(), 1u) << name_of(law);
         ASSERT_TRUE(run.impacts[0].restitution()) << name_of(law);
         EXPECT_NEAR(*run.impacts[0].restitution(), 1, 1e-12) << name_of(law);
-        EXPECT_NEAR(run.impacts[0].separation.value_or(-1), run.impacts[0].recovered.value_or(-2), 1e-9) << name_of(law);
+        EXPECT_NEAR(run.impacts[0].separation.value_or(-1), run.impacts[0].recovered.value_or(-2), 1e-9)
+            << name_of(law);
         EXPECT_EQ(run.final.ledger.contact.dissipated(), 0) << name_of(law);
     }
 }
@@ -101,7 +103,8 @@ TEST(ElasticImpact, LastsAsLongAsTheoryHasIt) {
     s.initial.velocity = {0, 0, -1};
     s.contacts = {{LinearNormal<>{1e5, 0}, NoFriction<>{}}};
     const auto linear = footfall::run(s);
-    EXPECT_NEAR(*linear.impacts[0].recovered - linear.impacts[0].touchdown, M_PI * std::sqrt(test::ball_mass / 1e5), 1e-13);
+    EXPECT_NEAR(*linear.impacts[0].recovered - linear.impacts[0].touchdown, M_PI * std::sqrt(test::ball_mass / 1e5),
+                1e-13);
     EXPECT_NEAR(linear.impacts[0].peak_indentation, std::sqrt(test::ball_mass / 1e5), 1e-13);
     s.contacts = {{AzadFeatherstoneNormal<>{8.5e6, 0}, NoFriction<>{}}};
     const auto hertz = footfall::run(s);

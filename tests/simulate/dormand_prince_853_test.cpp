@@ -45,7 +45,8 @@ std::vector<Tree> trees_up_to(int order) {
         std::vector<Weights> branch;
         for (const Tree& t : smaller) branch.push_back(through_rows(t.weight));
         // Branches in decreasing position of the list, so that each multiset comes once.
-        const auto grow = [&](const auto& self, std::size_t largest, int left, Real gamma, const Weights& product) -> void {
+        const auto grow = [&](const auto& self, std::size_t largest, int left, Real gamma,
+                              const Weights& product) -> void {
             if (left == 0) {
                 trees.push_back({n, gamma * static_cast<Real>(n), product});
                 return;
@@ -193,7 +194,9 @@ TEST(DormandPrince853, ErrorEstimateFallsWithTheEighthPowerOfTheStep) {
 
 TEST(DormandPrince853, NeverAcceptsAStepThatIsNotANumber) {
     using State = Eigen::Array<double, 2, 1>;
-    const auto f = [](const State& y, State& rate) { rate << y[0], y[0] > 1 ? std::numeric_limits<double>::quiet_NaN() : 0; };
+    const auto f = [](const State& y, State& rate) {
+        rate << y[0], y[0] > 1 ? std::numeric_limits<double>::quiet_NaN() : 0;
+    };
     DormandPrince853<State> method;
     method.begin(f, State(1, 0));
     method.step(f, 0.1);
@@ -215,7 +218,8 @@ double amplification(std::complex<double> z) {
 TEST(DormandPrince853, IsStableOverTheNegativeHalfDiscOfRadiusFour) {
     for (double radius = 0.1; radius <= 4; radius += 0.1)
         for (double angle = 0.52; angle <= 1.0; angle += 0.04)
-            EXPECT_LE(amplification(std::polar(radius, angle * std::numbers::pi)), 1) << radius << " at " << angle << " pi";
+            EXPECT_LE(amplification(std::polar(radius, angle * std::numbers::pi)), 1)
+                << radius << " at " << angle << " pi";
 }
 
 TEST(DormandPrince853, LosesStabilityOnTheRealAxisNearSix) {

@@ -59,7 +59,8 @@ void at_every(EventKind kind, Check&& check) {
             if (event.kind != kind) continue;
             ++seen;
             const auto i = static_cast<std::size_t>(event.sphere);
-            SCOPED_TRACE(std::string(name_of(kind)) + " of sphere " + std::to_string(i) + " at " + std::to_string(event.time));
+            SCOPED_TRACE(std::string(name_of(kind)) + " of sphere " + std::to_string(i) + " at " +
+                         std::to_string(event.time));
             check(scene, event, event.state.contacts[i]);
         }
         EXPECT_GT(seen, 0u) << "the scene shows nothing of this";
@@ -81,7 +82,8 @@ TEST(Events, StickAndSlipAreWhereTheFrictionIsOnItsCone) {
             EXPECT_EQ(c.phase, kind == EventKind::stick ? Phase::stick : Phase::slip);
             EXPECT_GT(c.depth, 0);
             for (const Event& other : scene.run.events)  // a contact that sticks at once begins inside the cone
-                if (other.sphere == event.sphere && other.time == event.time && other.kind == EventKind::touchdown) return;
+                if (other.sphere == event.sphere && other.time == event.time && other.kind == EventKind::touchdown)
+                    return;
             const auto i = static_cast<std::size_t>(event.sphere);
             const double mu = std::get<AzadFeatherstoneFriction<>>(scene.simulation.contacts[i].friction).coefficient;
             EXPECT_NEAR(c.friction_force.norm(), mu * c.normal_force, 1e-9 * peak_force(scene.run));

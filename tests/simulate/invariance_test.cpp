@@ -45,8 +45,8 @@ void expect_same_events(const Run& a, const Run& b, double limit, double unit = 
 }
 
 TEST(Invariance, TheSceneHasEveryKindOfEvent) {
-    for (const EventKind kind : {EventKind::touchdown, EventKind::stick, EventKind::slip, EventKind::separation,
-                                 EventKind::recovered}) {
+    for (const EventKind kind :
+         {EventKind::touchdown, EventKind::stick, EventKind::slip, EventKind::separation, EventKind::recovered}) {
         EXPECT_GT(test::count(original_run(), kind), 0u) << name_of(kind);
     }
 }
@@ -103,7 +103,8 @@ Eigen::Vector3d mirrored(const Eigen::Vector3d& v) { return {v.x(), -v.y(), v.z(
 Eigen::Vector3d mirrored_axial(const Eigen::Vector3d& v) { return {-v.x(), v.y(), -v.z()}; }
 BodyState mirrored(const BodyState& b) {
     const Eigen::Quaterniond& q = b.orientation;
-    return {mirrored(b.position), mirrored(b.velocity), {q.w(), -q.x(), q.y(), -q.z()}, mirrored_axial(b.angular_velocity)};
+    return {
+        mirrored(b.position), mirrored(b.velocity), {q.w(), -q.x(), q.y(), -q.z()}, mirrored_axial(b.angular_velocity)};
 }
 
 TEST(Invariance, AMirroredSceneMirrors) {
@@ -116,7 +117,7 @@ TEST(Invariance, AMirroredSceneMirrors) {
 }
 
 TEST(Invariance, OtherUnitsOfMassLengthAndTimeGiveTheSameNumbers) {
-    const double M = 1000, L = 25, T = 0.3;  // one of the original's units in the new ones
+    const double M = 1000, L = 25, T = 0.3;              // one of the original's units in the new ones
     const double per_root = M / (T * T * std::sqrt(L));  // N/m^1.5 is kg s^-2 m^-1/2
     Simulation s = original();
     s.body.mass *= M;

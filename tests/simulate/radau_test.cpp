@@ -55,11 +55,13 @@ double mean_slope(const Error& error, Real first, int halvings) {
 }
 
 TEST(RadauIIA, IsOfOrderNineInItsImplicitComponents) {
-    EXPECT_NEAR(mean_slope([](Real h) { return errors_after(static_cast<int>(std::lround(4 / h))).first; }, 0.5L, 2), 9, 0.3);
+    EXPECT_NEAR(mean_slope([](Real h) { return errors_after(static_cast<int>(std::lround(4 / h))).first; }, 0.5L, 2), 9,
+                0.3);
 }
 
 TEST(RadauIIA, IsOfOrderNineInItsIntegrals) {
-    EXPECT_NEAR(mean_slope([](Real h) { return errors_after(static_cast<int>(std::lround(4 / h))).second; }, 0.5L, 2), 9, 0.3);
+    EXPECT_NEAR(mean_slope([](Real h) { return errors_after(static_cast<int>(std::lround(4 / h))).second; }, 0.5L, 2),
+                9, 0.3);
 }
 
 // The collocation polynomial has degree 5: inside the step it is wrong by h^6.
@@ -129,8 +131,9 @@ TEST(RadauIIA, ForgetsAStiffTransientInOneStep) {
 }
 
 TEST(RadauIIA, SaysSoWhereItsIterationCannotConverge) {
-    Method method([](const Method::Vector&, Method::Vector& out) { out.setConstant(2, std::numeric_limits<Real>::quiet_NaN()); },
-                  [](const Method::Vector&, Method::Matrix& J) { J.setZero(1, 1); }, 1);
+    Method method(
+        [](const Method::Vector&, Method::Vector& out) { out.setConstant(2, std::numeric_limits<Real>::quiet_NaN()); },
+        [](const Method::Vector&, Method::Matrix& J) { J.setZero(1, 1); }, 1);
     method.begin(Method::Vector::Zero(2));
     method.step(1, Method::Vector::Constant(2, 1e12L));
     EXPECT_FALSE(method.error() <= 1);

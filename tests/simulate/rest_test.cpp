@@ -22,7 +22,7 @@ using test::paper_ball;
 const double static_depth = std::pow(ball_mass * gravity / 8.5e6, 2.0 / 3.0);
 
 TEST(Rest, ABallPutOnTheGroundSinksToWhereTheSpringCarriesIt) {
-    const auto run = footfall::run(paper_ball(0, 0.3));
+    const auto run = footfall::run(paper_ball(0, 1));
     EXPECT_NEAR(run.final.contacts[0].depth / static_depth, 1, 1e-9);
     EXPECT_NEAR(run.final.contacts[0].normal_force / (ball_mass * gravity), 1, 1e-9);
     EXPECT_LE(run.final.body.velocity.norm(), 1e-10);
@@ -52,7 +52,8 @@ TEST(Rest, ABouncingBallComesToRestAfterFinitelyManyImpacts) {
     EXPECT_FALSE(run.impacts.back().recovered) << "the last contact is still on";
     EXPECT_LT(run.impacts.back().touchdown, 1.5);
     EXPECT_NEAR(run.final.contacts[0].depth / static_depth, 1, 1e-9);
-    for (std::size_t i = 1; i < run.impacts.size(); ++i) EXPECT_LT(run.impacts[i].speed_in, run.impacts[i - 1].speed_in);
+    for (std::size_t i = 1; i < run.impacts.size(); ++i)
+        EXPECT_LT(run.impacts[i].speed_in, run.impacts[i - 1].speed_in);
 }
 
 TEST(Rest, IsCheap) {
@@ -119,7 +120,8 @@ TEST(Slopes, ABallSlidesAndSpinsUpWhereItsContactSlips) {
     const double span = b.time - a.time;
     EXPECT_NEAR((b.body.velocity.x() - a.body.velocity.x()) / span / (gravity * 0.8 * std::sqrt(0.5)), 1, 1e-6);
     EXPECT_NEAR((b.body.angular_velocity.y() - a.body.angular_velocity.y()) / span /
-                    (2.5 * 0.2 * gravity * std::sqrt(0.5) / ball_radius), 1, 1e-6);
+                    (2.5 * 0.2 * gravity * std::sqrt(0.5) / ball_radius),
+                1, 1e-6);
 }
 
 /// A ball that gravity pulls away from the ground: it comes down, turns at a height and goes up again.
@@ -137,16 +139,32 @@ TEST(Grazing, AMissByANanometreIsNoContact) {
     EXPECT_NEAR(run.final.body.velocity.z(), -0.9 + 0.2 * gravity, 1e-13);
 }
 
+// Wherever the turning point lies in a step.
 TEST(Grazing, ATouchByANanometreIsAContact) {
-    const auto run = footfall::run(grazing(-1e-9));
-    ASSERT_EQ(run.impacts.size(), 1u);
-    const double half = std::sqrt(2e-9 / gravity);
-    EXPECT_NEAR(run.impacts[0].touchdown, 0.9 / gravity - half, 1e-9);
-    ASSERT_TRUE(run.impacts[0].recovered);
-    // Its forces are a millionth of the pull.
-    EXPECT_NEAR(*run.impacts[0].recovered, 0.9 / gravity + half, 1e-7);
-    EXPECT_NEAR(run.impacts[0].peak_indentation, 1e-9, 1e-12);
-    EXPECT_TRUE(finite(run.final));
+    for (double end = 0.12; end < 0.3; end += 0.01) {
+        SCOPED_TRACE(end);
+        Simulation s = grazing(-1e-9);
+        s.options.end_time = end;
+        const auto run = footfall::run(s);
+        EXPECT_TRUE(finite(run.final));
+        EXPECT_EQ(run.impacts.size(), 1u);
+        if (run.impacts.empty()) continue;
+        const double half = std::sqrt(2e-9 / gravity);
+        EXPECT_NEAR(run.impacts[0].touchdown, 0.9 / gravity - half, 1e-9);
+        ASSERT_TRUE(run.impacts[0].recovered);
+        EXPECT_NEAR(*run.impacts[0].recovered, 0.9 / gravity + half, 1e-7);  // its forces are a millionth of the pull
+        EXPECT_NEAR(run.impacts[0].peak_indentation, 1e-9, 1e-12);
+    }
+}
+
+TEST(Grazing, DipsOfEveryDepthAreFound) {
+    for (const double depth : {1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
+        for (double end = 0.15; end < 0.3; end += 0.025) {
+            Simulation s = grazing(-depth);
+            s.options.end_time = end;
+            EXPECT_EQ(footfall::run(s).impacts.size(), 1u) << depth << " until " << end;
+        }
+    }
 }
 
 TEST(Grazing, ABallOnTheGroundThatMovesAwayHasNoContact) {

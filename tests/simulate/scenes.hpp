@@ -49,8 +49,8 @@ inline Simulation foot(double gap, double end_time, double tolerance = 1e-12) {
 /// The foot with its toes up and sideways speed: heel, then toe.
 inline Simulation heel_first(double end_time, double tolerance = 1e-12) {
     Simulation s = foot(0.04, end_time, tolerance);
-    s.initial.orientation = Eigen::AngleAxisd(-0.2, Eigen::Vector3d::UnitY()) *
-                            Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitX());
+    s.initial.orientation =
+        Eigen::AngleAxisd(-0.2, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitX());
     s.initial.velocity = {0.3, 0.15, -0.4};
     s.initial.angular_velocity = {0.2, 0.5, -0.3};
     return s;
@@ -88,11 +88,11 @@ auto rate_at(const F& value, std::size_t i, double period) {
     return Value(((value(i - 2) - value(i + 2)) + 8.0 * (value(i + 1) - value(i - 1))) / (12 * period));
 }
 
-/// Whether no event lies within two sample periods of sample i.
+/// Whether no event lies within some sample periods of sample i: after a touchdown the force rises as a root of time.
 inline bool smooth_around(const Run& run, std::size_t i, double period) {
     if (i < 2 || i + 2 >= run.samples.size()) return false;
     for (const Event& event : run.events)
-        if (std::abs(event.time - run.samples[i].time) < 2.5 * period) return false;
+        if (std::abs(event.time - run.samples[i].time) < 30 * period) return false;
     return true;
 }
 

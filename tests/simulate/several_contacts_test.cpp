@@ -32,7 +32,8 @@ TEST(SeveralContacts, AFlatFootLandsOnAllItsSpheresAtOnce) {
         const double force = shot.contacts[0].normal_force;
         largest = std::max(largest, force);
         for (int i = 1; i < 4; ++i)
-            EXPECT_NEAR(shot.contacts[static_cast<std::size_t>(i)].normal_force, force, 1e-6 * (1 + force)) << shot.time;
+            EXPECT_NEAR(shot.contacts[static_cast<std::size_t>(i)].normal_force, force, 1e-6 * (1 + force))
+                << shot.time;
     }
     EXPECT_GT(largest, 10);
     EXPECT_LE(run.final.body.angular_velocity.norm(), 1e-8);
@@ -97,17 +98,18 @@ TEST(SeveralContacts, TheSumOfTheirForcesMovesTheBody) {
         for (std::size_t k = 0; k < 4; ++k) {
             const ContactSnapshot& c = shots[i].contacts[k];
             const Eigen::Vector3d f = c.friction_force + c.normal_force * s.ground.normal;
-            const Eigen::Vector3d arm = shots[i].body.orientation * s.body.spheres[k].center -
-                                        s.body.spheres[k].radius * s.ground.normal;
+            const Eigen::Vector3d arm =
+                shots[i].body.orientation * s.body.spheres[k].center - s.body.spheres[k].radius * s.ground.normal;
             force += f;
             moment += arm.cross(f);
             pressed += c.normal_force > 0 ? 1 : 0;
         }
         const Eigen::Vector3d acceleration =
             test::rate_at([&](std::size_t j) { return shots[j].body.velocity; }, i, period);
-        const Eigen::Vector3d turning = test::rate_at(
-            [&](std::size_t j) { return test::angular_momentum(s.body, shots[j].body); }, i, period);
-        EXPECT_LE((s.body.mass * (acceleration - s.gravity) - force).norm(), 1e-6 * (10 + force.norm())) << shots[i].time;
+        const Eigen::Vector3d turning =
+            test::rate_at([&](std::size_t j) { return test::angular_momentum(s.body, shots[j].body); }, i, period);
+        EXPECT_LE((s.body.mass * (acceleration - s.gravity) - force).norm(), 1e-6 * (10 + force.norm()))
+            << shots[i].time;
         EXPECT_LE((turning - moment).norm(), 1e-6 * (1 + moment.norm())) << shots[i].time;
         largest = std::max(largest, force.norm());
         ++looked_at;
@@ -123,8 +125,8 @@ TEST(SeveralContacts, ASphereListedTwiceAtHalfStrengthIsOneSphere) {
     one.initial.velocity = {0.4, -0.2, 0};
     Simulation two = one;
     two.body.spheres.push_back(two.body.spheres[0]);
-    two.contacts.assign(2, {AzadFeatherstoneNormal<>{4.25e6, 1.55e3},
-                            AzadFeatherstoneFriction<>{{6.375e6, 1.55e3, 0.2, 0.05}}});
+    two.contacts.assign(
+        2, {AzadFeatherstoneNormal<>{4.25e6, 1.55e3}, AzadFeatherstoneFriction<>{{6.375e6, 1.55e3, 0.2, 0.05}}});
     const auto a = footfall::run(one), b = footfall::run(two);
     EXPECT_LE((a.final.body.position - b.final.body.position).norm(), 1e-10);
     EXPECT_LE((a.final.body.velocity - b.final.body.velocity).norm(), 1e-9);

@@ -40,10 +40,10 @@ struct Ground {
 
 /// Position and motion of a body, in the world's frame.
 struct BodyState {
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();           ///< c, centre of mass [m]
-    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();           ///< cdot [m/s]
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< c, centre of mass [m]
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< cdot [m/s]
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body to world, unit
-    Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();   ///< omega [rad/s]
+    Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();       ///< omega [rad/s]
 };
 
 /// Throws InvalidInput unless the body can exist and has a sphere.

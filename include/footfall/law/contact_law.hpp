@@ -23,15 +23,15 @@ enum class Phase : std::uint8_t {
 template <class S>
 struct ContactResponse {
     Phase phase = Phase::flight;
-    S normal_force = S(0);                                  ///< F_n [N], >= 0. (13), (14)
-    Vector2<S> friction_force = Vector2<S>::Zero();         ///< F_f [N]. (26), (27)
-    Vector2<S> bristle_rate = Vector2<S>::Zero();           ///< udot [m/s]. (31)
-    S normal_spring = S(0);                                 ///< stored [J]. (17)
-    S tangential_spring = S(0);                             ///< W, stored [J]
-    S normal_damper_power = S(0);                           ///< dissipated [W]. (16)
-    S tangential_damper_power = S(0);                       ///< dissipated [W]. (28)
-    S clutch_power = S(0);                                  ///< dissipated [W]. (29), sign mended
-    S stiffness_change_power = S(0);                        ///< dP/dt [W]
+    S normal_force = S(0);                           ///< F_n [N], >= 0. (13), (14)
+    Vector2<S> friction_force = Vector2<S>::Zero();  ///< F_f [N]. (26), (27)
+    Vector2<S> bristle_rate = Vector2<S>::Zero();    ///< udot [m/s]. (31)
+    S normal_spring = S(0);                          ///< stored [J]. (17)
+    S tangential_spring = S(0);                      ///< W, stored [J]
+    S normal_damper_power = S(0);                    ///< dissipated [W]. (16)
+    S tangential_damper_power = S(0);                ///< dissipated [W]. (28)
+    S clutch_power = S(0);                           ///< dissipated [W]. (29), sign mended
+    S stiffness_change_power = S(0);                 ///< dP/dt [W]
 };
 
 /// The contact law of one sphere. `Normal` and `Friction` are laws over the same scalar.
@@ -72,9 +72,9 @@ struct ContactLaw {
 
     /// The response in a phase that is known, as a smooth function of its arguments: s = sqrt(z) may be a little below
     /// zero, the force a little negative. `phi_n_rate` is d(F_n / s^ScalePower)/dt.
-    [[nodiscard]] ContactResponse<S> respond(Phase phase, const S& s, const S& z_rate, const Vector2<S>& V,
-                                             const Vector2<S>& u,
-                                             [[maybe_unused]] const S& phi_n_rate = S(0)) const noexcept {
+    [[nodiscard, gnu::always_inline]] ContactResponse<S> respond(
+        Phase phase, const S& s, const S& z_rate, const Vector2<S>& V, const Vector2<S>& u,
+        [[maybe_unused]] const S& phi_n_rate = S(0)) const noexcept {
         ContactResponse<S> r;
         r.phase = phase;
         if (phase == Phase::flight) {

@@ -14,12 +14,12 @@ namespace footfall {
 /// One parameter of a law whose aggregate is `Law` (with double members).
 template <class Law>
 struct Parameter {
-    std::string_view key;          ///< name in a scenario and in the API, "stiffness"
-    std::string_view symbol;       ///< the paper's symbol, "K_n"
-    std::string_view unit;         ///< SI unit, "N/m^1.5"; "1" where it has none
-    double Law::* member;          ///< where the value lives
-    std::string_view description;  ///< one phrase: what it is
-    std::string_view when_zero;    ///< what the law becomes at zero; empty where zero is refused
+    std::string_view key;                           ///< name in a scenario and in the API, "stiffness"
+    std::string_view symbol;                        ///< the paper's symbol, "K_n"
+    std::string_view unit;                          ///< SI unit, "N/m^1.5"; "1" where it has none
+    double Law::*member;                            ///< where the value lives
+    std::string_view description;                   ///< one phrase: what it is
+    std::string_view when_zero;                     ///< what the law becomes at zero; empty where zero is refused
     std::optional<double> fallback = std::nullopt;  ///< value where it is left out; none: it is required
     /// The unit depends on the values of other parameters, so only a plain SI number can be given.
     bool unit_depends = false;

@@ -1,5 +1,5 @@
-// Every law there is. To add one: write its file, add it here. The scenario's names, the command line's
-// help, the schema and the typed tests all follow this list.
+// Every law there is. To add one: write its file, add it here (and, for a normal law, src/simulate/run_<law>.cpp).
+// The scenario's names, the command line's help, the schema and the typed tests all follow this list.
 #pragma once
 
 #include <string_view>
@@ -26,9 +26,7 @@ struct ContactParameters {
 /// Calls `visit(law)` with a value-initialised law of each kind in `Variant`, in order.
 template <class Variant, class Visit>
 constexpr void for_each_law(Visit&& visit) {
-    [&]<class... Laws>(const std::variant<Laws...>*) {
-        (visit(Laws{}), ...);
-    }(static_cast<const Variant*>(nullptr));
+    [&]<class... Laws>(const std::variant<Laws...>*) { (visit(Laws{}), ...); }(static_cast<const Variant*>(nullptr));
 }
 
 /// The law's name in a scenario.

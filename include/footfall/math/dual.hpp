@@ -31,8 +31,8 @@ struct Dual {
     constexpr Dual(const T& constant) noexcept : value(constant) {}
     /// A constant of another arithmetic type.
     template <class A>
-    requires(std::is_arithmetic_v<A> && !std::same_as<A, T>) constexpr Dual(A constant) noexcept
-        : value(static_cast<T>(constant)) {}
+        requires(std::is_arithmetic_v<A> && !std::same_as<A, T>)
+    constexpr Dual(A constant) noexcept : value(static_cast<T>(constant)) {}
     constexpr Dual(const T& v, const std::array<T, N>& g) noexcept : value(v), gradient(g) {}
 
     /// The `index`-th input itself, 0 <= index < N: derivative 1 with respect to itself, 0 to the others.
@@ -152,35 +152,55 @@ struct Dual {
     template <class A>
     static constexpr bool is_other_constant = std::is_arithmetic_v<A> && !std::same_as<A, T>;
     template <class A>
-    requires is_other_constant<A>
-    friend constexpr Dual operator+(const Dual& a, A b) noexcept { return a + T(b); }
+        requires is_other_constant<A>
+    friend constexpr Dual operator+(const Dual& a, A b) noexcept {
+        return a + T(b);
+    }
     template <class A>
-    requires is_other_constant<A>
-    friend constexpr Dual operator+(A a, const Dual& b) noexcept { return T(a) + b; }
+        requires is_other_constant<A>
+    friend constexpr Dual operator+(A a, const Dual& b) noexcept {
+        return T(a) + b;
+    }
     template <class A>
-    requires is_other_constant<A>
-    friend constexpr Dual operator-(const Dual& a, A b) noexcept { return a - T(b); }
+        requires is_other_constant<A>
+    friend constexpr Dual operator-(const Dual& a, A b) noexcept {
+        return a - T(b);
+    }
     template <class A>
-    requires is_other_constant<A>
-    friend constexpr Dual operator-(A a, const Dual& b) noexcept { return T(a) - b; }
+        requires is_other_constant<A>
+    friend constexpr Dual operator-(A a, const Dual& b) noexcept {
+        return T(a) - b;
+    }
     template <class A>
-    requires is_other_constant<A>
-    friend constexpr Dual operator*(const Dual& a, A b) noexcept { return a * T(b); }
+        requires is_other_constant<A>
+    friend constexpr Dual operator*(const Dual& a, A b) noexcept {
+        return a * T(b);
+    }
     template <class A>
-    requires is_other_constant<A>
-    friend constexpr Dual operator*(A a, const Dual& b) noexcept { return T(a) * b; }
+        requires is_other_constant<A>
+    friend constexpr Dual operator*(A a, const Dual& b) noexcept {
+        return T(a) * b;
+    }
     template <class A>
-    requires is_other_constant<A>
-    friend constexpr Dual operator/(const Dual& a, A b) noexcept { return a / T(b); }
+        requires is_other_constant<A>
+    friend constexpr Dual operator/(const Dual& a, A b) noexcept {
+        return a / T(b);
+    }
     template <class A>
-    requires is_other_constant<A>
-    friend constexpr Dual operator/(A a, const Dual& b) noexcept { return T(a) / b; }
+        requires is_other_constant<A>
+    friend constexpr Dual operator/(A a, const Dual& b) noexcept {
+        return T(a) / b;
+    }
     template <class A>
-    requires is_other_constant<A>
-    friend Dual pow(const Dual& x, A e) noexcept { return pow(x, T(e)); }
+        requires is_other_constant<A>
+    friend Dual pow(const Dual& x, A e) noexcept {
+        return pow(x, T(e));
+    }
     template <class A>
-    requires is_other_constant<A>
-    friend Dual pow(A b, const Dual& x) noexcept { return pow(T(b), x); }
+        requires is_other_constant<A>
+    friend Dual pow(A b, const Dual& x) noexcept {
+        return pow(T(b), x);
+    }
 
     /// The value and every derivative are finite.
     friend bool isfinite(const Dual& x) noexcept {

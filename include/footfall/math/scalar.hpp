@@ -14,7 +14,7 @@ concept Scalar = requires(T a, T b) {
     T(1.0);
     { a + b } -> std::convertible_to<T>;
     { a - b } -> std::convertible_to<T>;
-    { a * b } -> std::convertible_to<T>;
+    { a* b } -> std::convertible_to<T>;
     { a / b } -> std::convertible_to<T>;
     { a < b } -> std::convertible_to<bool>;
 };

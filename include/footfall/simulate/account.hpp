@@ -41,7 +41,7 @@ template <class System>
     const auto motion = system.motion(y);
     const auto& frame = system.frame();
     Snapshot shot;
-    shot.time = static_cast<double>(y[Layout::time]);
+    shot.time = static_cast<double>(y[system.layout().time()]);
     shot.body.position = motion.position.template cast<double>();
     shot.body.velocity = motion.velocity.template cast<double>();
     shot.body.angular_velocity = motion.angular_velocity.template cast<double>();

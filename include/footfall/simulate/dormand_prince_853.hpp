@@ -2,17 +2,22 @@
 // system on a flat Eigen array. It takes one step when asked; who chooses the step is elsewhere.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <utility>
+
+#include <Eigen/Core>
 
 #include "footfall/simulate/dormand_prince_853_table.hpp"
 
 namespace footfall {
 
 /// One step at a time: `begin`, then `step` (again with another h where it is refused), `finish`, `advance`.
-template <class StateVector>
+///
+/// The right-hand side is `f(y, rate, look)`; it may depend on the first `Motion` components of y alone, so that the
+/// others, which are integrals, need no stage. `look` is set at a few places along the step where a caller may want to
+/// examine y.
+template <class StateVector, int Motion = StateVector::RowsAtCompileTime>
 class DormandPrince853 {
 public:
     using S = typename StateVector::Scalar;
@@ -20,32 +25,38 @@ public:
     /// Evaluations of a step, of `finish`, and of `prepare_dense`.
     static constexpr int stages = dormand_prince_853_table::stages;
 
-    /// Sets the start of the next step. `f(y, rate)` is the right-hand side.
+    /// `motion` is the number of components that make the motion, where it is not known at compile time.
+    explicit DormandPrince853(Eigen::Index motion = Motion) : motion_(motion) {}
+
+    /// Sets the start of the next step.
     template <class F>
     void begin(F&& f, const StateVector& y) {
         y0_ = y;
         for (StateVector& k : k_) k.resizeLike(y);
-        f(y0_, k_[0]);
+        f(y0_, k_[0], true);
     }
 
     /// Takes a step of size h from the start.
     template <class F>
     void step(F&& f, const S& h) {
         h_ = h;
+        y1_ = y0_;
         [&]<std::size_t... I>(std::index_sequence<I...>) {
-            ((stage_state<I + 1>(y1_), f(y1_, k_[I + 1])), ...);
+            ((stage_state<I + 1>(y1_, motion()), f(y1_, k_[I + 1], I + 1 == 5 || I + 1 == 8)), ...);  // c = 1/3, 0.65
         }(std::make_index_sequence<stages - 1>{});
-        stage_state<stages>(y1_);
+        stage_state<stages>(y1_, y0_.size());
     }
 
     /// The local error of the step in units of what `weight` allows: a step with at most 1 is good.
     [[nodiscard]] S error(const StateVector& weight) const {
         using std::abs, std::sqrt;
+        constexpr auto fifth = [] { return dormand_prince_853_table::error5; };
+        constexpr auto third = [] { return dormand_prince_853_table::error3; };
+        constexpr auto all = std::make_index_sequence<stages>{};
         S five(0), three(0);
         for (Eigen::Index c = 0; c < y0_.size(); ++c) {
-            const auto [e5, e3] = errors(c);
-            five = larger(five, abs(e5) * weight[c]);
-            three = larger(three, abs(e3) * weight[c]);
+            five = larger(five, abs(weighted(fifth, c, all)) * weight[c]);
+            three = larger(three, abs(weighted(third, c, all)) * weight[c]);
         }
         if (five == S(0)) return S(0);
         return abs(h_) * five * five / sqrt(five * five + S(0.01) * three * three);
@@ -54,7 +65,7 @@ public:
     /// Evaluates the right-hand side at the step's end.
     template <class F>
     void finish(F&& f) {
-        f(y1_, k_[stages]);
+        f(y1_, k_[stages], true);
     }
 
     /// Makes the end of the step the start of the next; `end` is that state, possibly corrected.
@@ -72,7 +83,7 @@ public:
     void prepare_dense(F&& f) {
         StateVector y = y0_;
         [&]<std::size_t... I>(std::index_sequence<I...>) {
-            ((stage_state<I + stages + 1>(y), f(y, k_[I + stages + 1])), ...);
+            ((stage_state<I + stages + 1>(y, motion()), f(y, k_[I + stages + 1], false)), ...);
         }(std::make_index_sequence<3>{});
         const StateVector dy = y1_ - y0_;
         dense_[0] = dy;
@@ -100,50 +111,41 @@ public:
     }
 
 private:
-    // Sum over the stages whose coefficient is not zero, for one component: the zeros cost nothing.
-    template <const auto& Row, std::size_t... J>
-    [[nodiscard]] S weighted(Eigen::Index c, std::index_sequence<J...>) const {
+    [[nodiscard]] constexpr Eigen::Index motion() const noexcept { return Motion == Eigen::Dynamic ? motion_ : Motion; }
+
+    // Sum over the stages whose coefficient is not zero, for one component: the zeros cost nothing. `Row` is the type
+    // of a function that returns the coefficients, so that they are known at compile time.
+    template <class Row, std::size_t... J>
+    [[nodiscard, gnu::always_inline]] S weighted(Row, Eigen::Index c, std::index_sequence<J...>) const {
+        constexpr auto row = Row{}();
         S sum(0);
         (
             [&] {
-                if constexpr (Row[J] != 0) sum += S(Row[J]) * k_[J][c];
+                if constexpr (row[J] != 0) sum += S(row[J]) * k_[J][c];
             }(),
             ...);
         return sum;
     }
 
     template <std::size_t Stage>
-    void stage_state(StateVector& y) const {
-        namespace table = dormand_prince_853_table;
-        static constexpr const auto& row = table::a[Stage];
-        y.resizeLike(y0_);
-        for (Eigen::Index c = 0; c < y0_.size(); ++c)
-            y[c] = y0_[c] + h_ * weighted<row>(c, std::make_index_sequence<Stage>{});
+    void stage_state(StateVector& y, Eigen::Index components) const {
+        constexpr auto row = [] { return dormand_prince_853_table::a[Stage]; };
+        for (Eigen::Index c = 0; c < components; ++c)
+            y[c] = y0_[c] + h_ * weighted(row, c, std::make_index_sequence<Stage>{});
     }
 
     template <std::size_t Row>
     void combine(StateVector& y) const {
-        namespace table = dormand_prince_853_table;
-        static constexpr const auto& row = table::dense[Row];
+        constexpr auto row = [] { return dormand_prince_853_table::dense[Row]; };
         y.resizeLike(y0_);
         for (Eigen::Index c = 0; c < y0_.size(); ++c)
-            y[c] = h_ * weighted<row>(c, std::make_index_sequence<table::dense_stages>{});
+            y[c] = h_ * weighted(row, c, std::make_index_sequence<dormand_prince_853_table::dense_stages>{});
     }
 
     // The larger of two, where a NaN is larger than any number.
     static S larger(const S& a, const S& b) noexcept { return b > a || b != b ? b : a; }
 
-    [[nodiscard]] std::pair<S, S> errors(Eigen::Index c) const {
-        namespace table = dormand_prince_853_table;
-        static constexpr const auto& five = table::error5;
-        static constexpr const auto& b = table::a[stages];
-        static constexpr const auto& third = table::third_order;
-        const S e5 = weighted<five>(c, std::make_index_sequence<stages>{});
-        const S e3 = weighted<b>(c, std::make_index_sequence<stages>{}) -
-                     weighted<third>(c, std::make_index_sequence<stages>{});
-        return {e5, e3};
-    }
-
+    Eigen::Index motion_;
     StateVector y0_, y1_;
     S h_{0};
     std::array<StateVector, dormand_prince_853_table::dense_stages> k_;

@@ -4,11 +4,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace footfall::dormand_prince_853_table {
 
-inline constexpr int stages = 12;         ///< of the step; row 12 is the step itself (its weights b)
-inline constexpr int dense_stages = 16;   ///< with the three that dense output needs
+inline constexpr int stages = 12;        ///< of the step; row 12 is the step itself (its weights b)
+inline constexpr int dense_stages = 16;  ///< with the three that dense output needs
 
 // clang-format off
 /// a_ij: row i is stage i.
@@ -35,9 +36,15 @@ inline constexpr std::array<std::array<long double, dense_stages>, dense_stages>
 inline constexpr std::array<long double, stages> error5{
     0.1312004499419488073250102996e-1L, 0, 0, 0, 0, -0.1225156446376204440720569753e+1L, -0.4957589496572501915214079952L, 0.1664377182454986536961530415e+1L, -0.3503288487499736816886487290L, 0.3341791187130174790297318841L, 0.8192320648511571246570742613e-1L, -0.2235530786388629525884427845e-1L};
 
-/// The weights of the embedded third-order method; the estimate is b minus these.
-inline constexpr std::array<long double, stages> third_order{
-    0.244094488188976377952755905512L, 0, 0, 0, 0, 0, 0, 0, 0.733846688281611857341361741547L, 0, 0, 0.220588235294117647058823529412e-1L};
+/// The third-order error estimate, per stage: b less the weights of an embedded method of order 3.
+inline constexpr std::array<long double, stages> error3 = [] {
+    std::array<long double, stages> e{};
+    for (int j = 0; j < stages; ++j) e[static_cast<std::size_t>(j)] = a[stages][static_cast<std::size_t>(j)];
+    e[0] -= 0.244094488188976377952755905512L;
+    e[8] -= 0.733846688281611857341361741547L;
+    e[11] -= 0.220588235294117647058823529412e-1L;
+    return e;
+}();
 
 /// The last four coefficients of the interpolant, per stage.
 inline constexpr std::array<std::array<long double, dense_stages>, 4> dense{{

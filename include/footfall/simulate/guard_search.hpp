@@ -2,12 +2,13 @@
 #pragma once
 
 #include <array>
-#include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 
 namespace footfall {
 
@@ -32,8 +33,8 @@ template <class S, class F>
     const auto root = [&](S a, S fa, S b, S fb) {
         if (!(fb < S(0))) return b;
         std::uintmax_t iterations = 60;
-        const auto r =
-            boost::math::tools::toms748_solve(f, a, b, fa, fb, boost::math::tools::eps_tolerance<S>(bits - 4), iterations);
+        const auto r = boost::math::tools::toms748_solve(f, a, b, fa, fb,
+                                                         boost::math::tools::eps_tolerance<S>(bits - 4), iterations);
         return (r.first + r.second) / S(2);
     };
     for (int k = 1; k <= samples; ++k) {

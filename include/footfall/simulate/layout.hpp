@@ -1,10 +1,12 @@
 // Where each quantity stands in the flat state vector that the integrators advance.
 //
-//   c (3)  cdot (3)  L (3)  q (4: x, y, z, w)  t  | for each contact: s, u (2) | for each contact: the ledger (4)
+//   cdot (3)  L (3)  q (4: x, y, z, w)  | for each contact: s, u (2) |  c (3)  t  | for each contact: the ledger (4)
+//   \-------------------- the motion -------------------------------/  \------- what follows from it ------------/
 //
 // L is the angular momentum about the centre of mass in the world's frame: constant in flight for every body.
-// s = sqrt(z) is a state of its own, so that nothing is singular at touchdown. The ledger comes last because nothing
-// depends on it: an implicit method leaves it out of its Jacobian.
+// s = sqrt(z) is a state of its own, so that nothing is singular at touchdown, and the forces need no position.
+// The motion does not depend on what stands behind it, so the methods integrate that part as plain integrals: no
+// stage needs it, and no Jacobian.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,22 +16,33 @@ namespace footfall {
 /// Index of each state. `Spheres` is the number of contacts, or Eigen::Dynamic.
 template <int Spheres>
 struct Layout {
-    static constexpr int position = 0, velocity = 3, momentum = 6, orientation = 9, time = 13, contacts = 14;
-    static constexpr int dynamic_per_contact = 3, ledger_per_contact = 4;
+    static constexpr int velocity = 0, momentum = 3, orientation = 6, contacts = 10;
+    static constexpr int motion_per_contact = 3, ledger_per_contact = 4, position_and_time = 4;
     static constexpr int size_at_compile_time =
-        Spheres == Eigen::Dynamic ? Eigen::Dynamic : contacts + (dynamic_per_contact + ledger_per_contact) * Spheres;
+        Spheres == Eigen::Dynamic ? Eigen::Dynamic
+                                  : contacts + position_and_time + (motion_per_contact + ledger_per_contact) * Spheres;
+    static constexpr int motion_at_compile_time =
+        Spheres == Eigen::Dynamic ? Eigen::Dynamic : contacts + motion_per_contact * Spheres;
 
     int spheres = Spheres;
 
-    [[nodiscard]] constexpr int root_depth(int i) const noexcept { return contacts + dynamic_per_contact * i; }
+    [[nodiscard]] constexpr int root_depth(int i) const noexcept { return contacts + motion_per_contact * i; }
     [[nodiscard]] constexpr int bristle(int i) const noexcept { return root_depth(i) + 1; }
-    /// Without the ledger.
-    [[nodiscard]] constexpr int dynamic_size() const noexcept { return contacts + dynamic_per_contact * spheres; }
-    [[nodiscard]] constexpr int ledger(int i) const noexcept { return dynamic_size() + ledger_per_contact * i; }
-    [[nodiscard]] constexpr int size() const noexcept { return dynamic_size() + ledger_per_contact * spheres; }
+    /// How many components come first and make the motion.
+    [[nodiscard]] constexpr int motion_size() const noexcept { return contacts + motion_per_contact * count(); }
+    [[nodiscard]] constexpr int position() const noexcept { return motion_size(); }
+    [[nodiscard]] constexpr int time() const noexcept { return motion_size() + 3; }
+    [[nodiscard]] constexpr int ledger(int i) const noexcept {
+        return motion_size() + position_and_time + ledger_per_contact * i;
+    }
+    [[nodiscard]] constexpr int size() const noexcept { return ledger(count()); }
 
     // Offsets inside a contact's ledger.
     static constexpr int normal_damper = 0, tangential_damper = 1, clutch = 2, stiffness_change = 3;
+
+private:
+    // A number of spheres that is known at compile time unrolls every loop over the state.
+    [[nodiscard]] constexpr int count() const noexcept { return Spheres == Eigen::Dynamic ? spheres : Spheres; }
 };
 
 template <class S, int Spheres>

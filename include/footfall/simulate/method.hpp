@@ -10,19 +10,20 @@
 
 namespace footfall {
 
-/// Takes steps with the method that suits the equations, and chooses their size. `F(y, rate)` is the right-hand
-/// side, `J(y, matrix)` its Jacobian for the components before the ledger.
-template <class StateVector, class F, class J>
+/// Takes steps with the method that suits the equations, and chooses their size. `F(y, rate, look)` is the right-hand
+/// side, `J(y, matrix)` its Jacobian for the first `Motion` components, on which alone it depends.
+template <class StateVector, int Motion, class F, class J>
 class Method {
 public:
     using S = typename StateVector::Scalar;
     using Vector = typename RadauIIA<S>::Vector;
     using Matrix = typename RadauIIA<S>::Matrix;
 
-    Method(F f, J jacobian, int dynamic_size)
+    Method(F f, J jacobian, int motion)
         : f_(std::move(f)),
           jacobian_(jacobian),
-          implicit_([this](const Vector& y, Vector& rate) { call(y, rate); }, std::move(jacobian), dynamic_size) {}
+          explicit_(motion),
+          implicit_([this](const Vector& y, Vector& rate) { call(y, rate); }, std::move(jacobian), motion) {}
     Method(const Method&) = delete;
     Method& operator=(const Method&) = delete;
 
@@ -49,7 +50,9 @@ public:
     }
 
     /// The step's local error in units of what is allowed.
-    [[nodiscard]] S error(const StateVector& weight) const { return stiff_ ? implicit_.error() : explicit_.error(weight); }
+    [[nodiscard]] S error(const StateVector& weight) const {
+        return stiff_ ? implicit_.error() : explicit_.error(weight);
+    }
 
     /// Evaluates the right-hand side at the step's end.
     void finish() {
@@ -112,7 +115,8 @@ public:
     [[nodiscard]] S growth(const S& error, bool refused) {
         using std::isfinite, std::pow;
         if (!isfinite(error)) return S(0.25);
-        const S exponent = S(1) / S(stiff_ ? RadauIIA<S>::estimate_order + 1 : DormandPrince853<StateVector>::order);
+        const S exponent =
+            S(1) / S(stiff_ ? RadauIIA<S>::estimate_order + 1 : DormandPrince853<StateVector, Motion>::order);
         const S seen = std::max(error, S(1e-6));
         S factor = S(0.9);
         if (error > S(1)) {
@@ -129,8 +133,8 @@ private:
     // The explicit method gives way once its steps are at the border of its stability, where accuracy would allow
     // larger ones; the implicit one where its steps do not pay for their price.
     void reconsider(const StateVector& weight) {
-        constexpr int look = 32;    // steps between looks
-        constexpr int price = 20;   // of an implicit step, in explicit ones
+        constexpr int look = 256;     // steps between looks
+        constexpr int price = 50;     // of an implicit step, in explicit ones
         constexpr double border = 4;  // of h |lambda|: the stability region reaches to about 6
         ++steps_;
         if (!stiff_) {
@@ -140,14 +144,14 @@ private:
             stiff_ = true;
             explicit_step_ = h_;
             implicit_.begin(start_);
-        } else if (steps_ > 8 && h_ < S(price) * explicit_step_) {
+        } else if (steps_ > 6 && h_ < S(price) * explicit_step_) {
             leave_implicit();
         }
     }
 
     void leave_implicit() {
         stiff_ = false;
-        patience_ = std::min(2 * patience_, 64);
+        patience_ = std::min(4 * patience_, 64);
         const StateVector y = start_;
         begin(y);
     }
@@ -175,7 +179,7 @@ private:
     void call(const Vector& y, Vector& rate) {
         state_ = y;
         rate_.resizeLike(state_);
-        f_(state_, rate_);
+        f_(state_, rate_, true);
         rate = rate_;
     }
 
@@ -183,7 +187,7 @@ private:
     J jacobian_;
     Matrix J_;
     StateVector state_, rate_, start_, end_;
-    DormandPrince853<StateVector> explicit_;
+    DormandPrince853<StateVector, Motion> explicit_;
     RadauIIA<S> implicit_;
     S h_{0}, last_error_{1};
     bool stiff_ = false;

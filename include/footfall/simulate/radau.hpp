@@ -2,16 +2,17 @@
 // Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. (1996), sections IV.5 and IV.8.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <array>
 #include <complex>
 #include <functional>
 
+#include <Eigen/Core>
+#include <Eigen/LU>
+
 namespace footfall {
 
-/// The same interface as DormandPrince853, on vectors of any length whose first `dynamic_size` components are
-/// implicit; the rest (the ledger) are integrals of functions of these. Compiled for double and long double.
+/// The same interface as DormandPrince853, on vectors of any length whose first `motion` components make
+/// the motion; the rest are integrals of functions of these. Compiled for double and long double.
 template <class S>
 class RadauIIA {
 public:
@@ -24,10 +25,10 @@ public:
 
     /// f(y, rate): the right-hand side.
     using Function = std::function<void(const Vector&, Vector&)>;
-    /// jacobian(y, J): d(rate)/dy for the implicit components.
+    /// jacobian(y, J): d(rate)/dy for the components of the motion.
     using Jacobian = std::function<void(const Vector&, Matrix&)>;
 
-    RadauIIA(Function f, Jacobian jacobian, int dynamic_size);
+    RadauIIA(Function f, Jacobian jacobian, int motion);
 
     /// Sets the start of the next step.
     void begin(const Vector& y);
@@ -59,7 +60,7 @@ private:
 
     Function f_;
     Jacobian jacobian_;
-    int dynamic_;
+    int motion_;
     Vector y0_, y1_, rate0_, rate1_;
     S h_{0}, error_{0};
     bool jacobian_is_current_ = false;

@@ -26,9 +26,9 @@ enum class EventKind : std::uint8_t {
 /// One contact at one moment. Vectors are in the world's frame.
 struct ContactSnapshot {
     Phase phase = Phase::flight;
-    double depth = 0;          ///< z [m], > 0 indentation; negative in flight: minus the gap
-    double depth_rate = 0;     ///< zdot [m/s], > 0 loading
-    double normal_force = 0;   ///< F_n [N], >= 0, along the ground's normal
+    double depth = 0;         ///< z [m], > 0 indentation; negative in flight: minus the gap
+    double depth_rate = 0;    ///< zdot [m/s], > 0 loading
+    double normal_force = 0;  ///< F_n [N], >= 0, along the ground's normal
     Eigen::Vector3d friction_force = Eigen::Vector3d::Zero();  ///< F_f [N], in the ground's plane, on the body
     Eigen::Vector3d slip_velocity = Eigen::Vector3d::Zero();   ///< V_sph [m/s], of the sphere's bottom point
     Eigen::Vector3d bristle = Eigen::Vector3d::Zero();         ///< u [m], in the ground's plane
@@ -46,8 +46,8 @@ struct Snapshot {
 struct Event {
     double time = 0;  ///< [s]
     EventKind kind = EventKind::touchdown;
-    int sphere = 0;   ///< index into Body::spheres
-    Snapshot state;   ///< at that time, in the phase that the event begins
+    int sphere = 0;  ///< index into Body::spheres
+    Snapshot state;  ///< at that time, in the phase that the event begins
 };
 
 /// One visit of a sphere to the ground. What has not happened by the end of the run is empty.
@@ -93,8 +93,8 @@ struct Run {
     std::vector<Impact> impacts;    ///< in order of touchdown
     Snapshot initial;
     Snapshot final;
-    double max_residual = 0;   ///< largest |total - initial total| over all steps, relative to `energy_scale`
-    double energy_scale = 0;   ///< largest Ledger::magnitude seen [J]
+    double max_residual = 0;  ///< largest |total - initial total| over all steps, relative to `energy_scale`
+    double energy_scale = 0;  ///< largest Ledger::magnitude seen [J]
     Cost cost;
 
     /// (total - initial total) / energy_scale at the end.

@@ -1,21 +1,22 @@
 // How large each quantity of a run is: what its error is relative to.
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <type_traits>
 #include <vector>
 
+#include <Eigen/Eigenvalues>
+
 #include "footfall/simulate/system.hpp"
 
 namespace footfall {
 
 /// The natural size of every component of the state, from the largest mechanical energy E that the run has seen:
-/// the depth z* that would store E in one normal spring, the speed v* = sqrt(2E/m), the time z*/v*. A tolerance is
-/// relative to these, so it means the same for a grain and for a boulder, and nothing is resolved relative to a
-/// quantity that happens to pass zero.
+/// the depth z* that would store E in one normal spring, the speed v* = sqrt(2E/m); positions and times, which no
+/// force depends on, are measured by the sphere's radius r and r/v*. A tolerance is relative to these, so it means the
+/// same for a grain and for a boulder, and nothing is resolved relative to a quantity that happens to pass zero.
 template <class System>
 class Scales {
 public:
@@ -27,7 +28,7 @@ public:
         : system_(&system), mass_(body.mass), tolerance_(tolerance) {
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> moments(body.inertia, Eigen::EigenvaluesOnly);
         largest_moment_ = moments.eigenvalues().maxCoeff();
-        for (const Sphere& sphere : body.spheres) reach_ = std::max(reach_, sphere.center.norm());
+        for (const Sphere& sphere : body.spheres) radius_ = std::max(radius_, sphere.radius);
         bristle_seen_.assign(body.spheres.size(), 0.0);
         // Standing still, the body sinks in until the springs carry it: the least energy that matters.
         const double weight = mass_ * gravity.norm();
@@ -41,8 +42,8 @@ public:
     void see(const StateVector& y, double mechanical_energy) {
         if (mechanical_energy > 1.1 * energy_) see_energy(mechanical_energy);
         for (int i = 0; i < system_->spheres(); ++i)
-            bristle_seen_[static_cast<std::size_t>(i)] =
-                std::max(bristle_seen_[static_cast<std::size_t>(i)], static_cast<double>(system_->bristle(y, i).norm()));
+            bristle_seen_[static_cast<std::size_t>(i)] = std::max(bristle_seen_[static_cast<std::size_t>(i)],
+                                                                  static_cast<double>(system_->bristle(y, i).norm()));
     }
 
     /// z* [m], its root, v* [m/s].
@@ -57,11 +58,11 @@ public:
         const auto set = [&](int first, int count, double size) {
             for (int c = first; c < first + count; ++c) weight[c] = S(1.0 / allowed(size, y[c]));
         };
-        set(Layout::position, 3, depth_);
+        set(layout.position(), 3, radius_);
         set(Layout::velocity, 3, speed_);
         set(Layout::momentum, 3, speed_ * std::sqrt(mass_ * largest_moment_));
-        set(Layout::orientation, 4, reach_ > depth_ ? depth_ / reach_ : 1.0);
-        set(Layout::time, 1, depth_ / speed_);
+        set(Layout::orientation, 4, 1.0);
+        set(layout.time(), 1, radius_ / speed_);
         for (int i = 0; i < layout.spheres; ++i) {
             set(layout.root_depth(i), 1, std::sqrt(depth_));
             set(layout.bristle(i), 2, std::max(bristle_seen_[static_cast<std::size_t>(i)], bristle_floor_));
@@ -111,7 +112,7 @@ private:
 
     const System* system_;
     double mass_, tolerance_;
-    double largest_moment_ = 0, reach_ = 0;
+    double largest_moment_ = 0, radius_ = 0;
     double energy_ = 0, depth_ = 1, speed_ = 1, bristle_floor_ = 1;
     std::vector<double> bristle_seen_;
 };

@@ -11,9 +11,9 @@ namespace footfall {
 
 /// How exact and how long a run is, and what it records.
 struct RunOptions {
-    double end_time = 1;          ///< [s], > 0
-    double sample_period = 0;     ///< [s], > 0; 0 records no samples but the first and the last
-    double tolerance = 1e-10;     ///< relative error of a step, from 1e-14 to 1e-3
+    double end_time = 1;                     ///< [s], > 0
+    double sample_period = 0;                ///< [s], > 0; 0 records no samples but the first and the last
+    double tolerance = 1e-10;                ///< relative error of a step, from 1e-14 to 1e-3
     bool allow_initial_penetration = false;  ///< spheres may start in the ground, their springs loaded
     /// A run that would need more evaluations of the equations of motion is refused before it starts where
     /// the estimate says so, and stopped with an error where only the run itself shows it.
@@ -26,7 +26,7 @@ struct RunOptions {
 struct Simulation {
     Body body;
     Ground ground;
-    Eigen::Vector3d gravity{0, 0, -9.81};     ///< [m/s^2], world
+    Eigen::Vector3d gravity{0, 0, -9.81};  ///< [m/s^2], world
     BodyState initial;
     /// One for each sphere of the body, in its order. All have the same kinds of law; parameters may differ.
     std::vector<ContactParameters> contacts;

@@ -34,7 +34,7 @@ public:
           recorder_(simulation.options.sample_period, simulation.options.end_time),
           end_time_(simulation.options.end_time),
           dual_system_(system_.template cast<Direction>()),
-          method_({this}, {this}, system_.layout().dynamic_size()) {
+          method_({this}, {this}, system_.layout().motion_size()) {
         place(simulation);
     }
 
@@ -44,7 +44,7 @@ public:
     [[nodiscard]] Run run() {
         const auto started = std::chrono::steady_clock::now();
         begin_on_ground();
-        while (y_[Layout::time] < end_time_) {
+        while (y_[system_.layout().time()] < end_time_) {
             if (!handle_broken_guards()) advance();
         }
         cost_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -70,7 +70,9 @@ private:
     using DualSystem = decltype(std::declval<SystemType>().template cast<Direction>());
     struct RightHandSide {
         Simulator* simulator;
-        void operator()(const StateVector& y, StateVector& rate) const { simulator->evaluate(y, rate); }
+        void operator()(const StateVector& y, StateVector& rate, bool look) const {
+            simulator->evaluate(y, rate, look);
+        }
     };
     struct JacobianMatrix {
         Simulator* simulator;
@@ -91,7 +93,7 @@ private:
         const Eigen::Matrix3d R = b.orientation.toRotationMatrix();
         const Eigen::Vector3d momentum = R * simulation.body.inertia * R.transpose() * b.angular_velocity;
         y_ = StateVector::Zero(layout.size());
-        y_.template segment<3>(Layout::position) = b.position.cast<S>().array();
+        y_.template segment<3>(system_.layout().position()) = b.position.cast<S>().array();
         y_.template segment<3>(Layout::velocity) = b.velocity.cast<S>().array();
         y_.template segment<3>(Layout::momentum) = momentum.cast<S>().array();
         y_.template segment<4>(Layout::orientation) = b.orientation.coeffs().cast<S>().array();
@@ -99,6 +101,7 @@ private:
         guards_ = lowest_ = scratch_guards_ = Guards::Ones(guards);
         armed_.assign(index(guards), true);
         stalls_.resize(index(layout.spheres));
+        rises_.assign(index(layout.spheres), false);
         silent_until_.assign(index(guards), S(-1));
         scratch_ = y_;
         extent_ = std::abs(simulation.ground.height);
@@ -145,7 +148,7 @@ private:
     // d(zdot)/dt, by a difference along the motion.
     [[nodiscard]] S depth_acceleration(const StateVector& y, int i) {
         StateVector rate = y;
-        evaluate(y, rate);
+        evaluate(y, rate, false);
         const S g = system_.time_rate(y);
         const S small = std::sqrt(eps()) * S(scales_.depth() / scales_.speed());
         const StateVector later = y + rate * (small / g);
@@ -155,23 +158,23 @@ private:
 
     /// Distances below this are rounding [m].
     [[nodiscard]] S touching() const {
-        const S far = y_.template segment<3>(Layout::position).matrix().norm();
+        const S far = y_.template segment<3>(system_.layout().position()).matrix().norm();
         return S(64) * eps() * (far + S(extent_));
     }
 
     // ---- one step ---------------------------------------------------------------------------------------------
 
-    void evaluate(const StateVector& y, StateVector& rate) {
+    void evaluate(const StateVector& y, StateVector& rate, bool look) {
         ++cost_.evaluations;
-        system_.evaluate(y, rate, &scratch_guards_);
-        lowest_ = lowest_.min(scratch_guards_);
+        system_.evaluate(y, rate, look ? &scratch_guards_ : nullptr);
+        if (look) lowest_ = lowest_.min(scratch_guards_);
     }
 
-    // d(rate)/dy of the components before the ledger, exact, by dual numbers.
+    // d(rate)/dy of the components of the motion, exact, by dual numbers.
     template <class Vector, class Matrix>
     void differentiate(const Vector& y, Matrix& J) {
         using DualVector = typename DualSystem::StateVector;
-        const int n = system_.layout().dynamic_size();
+        const int n = system_.layout().motion_size();
         for (int i = 0; i < system_.spheres(); ++i) dual_system_.set_phase(i, system_.phase(i));
         J.resize(n, n);
         DualVector point = y.template cast<Direction>(), rate = point;
@@ -193,7 +196,7 @@ private:
         method_.begin(y_);
         guards_ = scratch_guards_;
         scales_.weights(y_, weight_);
-        rises_ = force_rises(y_, method_.start_rate());
+        for (int i = 0; i < system_.spheres(); ++i) rises_[index(i)] = force_rises(y_, method_.start_rate(), i);
     }
 
     void advance() {
@@ -206,9 +209,10 @@ private:
         }
         const bool whole = !crossing;
         StateVector y = method_.end();
-        const S from = y_[Layout::time], to = crossing.guard == end_of_run() ? end_time_ : y[Layout::time];
+        const S from = y_[system_.layout().time()],
+                to = crossing.guard == end_of_run() ? end_time_ : y[system_.layout().time()];
         record_inside(from, to);
-        y[Layout::time] = to;
+        y[system_.layout().time()] = to;
         tidy(y, to - from);
         y_ = y;
         ++cost_.steps;
@@ -222,14 +226,14 @@ private:
             rearm();
             method_.advance(y_, weight_);
             lowest_ = Guards::Constant(lowest_.size(), std::numeric_limits<S>::max());
-            scales_.weights(y_, weight_);
+            if (cost_.steps % 8 == 0) scales_.weights(y_, weight_);
         }
         if (cost_.steps % 512 == 0) watch();
     }
 
     // Steps until one is accurate enough; leaves the method finished at its end. Returns the size of that step.
     S accepted_step() {
-        const S start_time = y_[Layout::time];
+        const S start_time = y_[system_.layout().time()];
         bool refused = false;
         for (;;) {
             S h = fixed_step_ > S(0) ? fixed_step_ : std::min(step_, longest_step());
@@ -240,8 +244,10 @@ private:
             if (fixed_step_ > S(0) || error <= S(1)) {
                 method_.finish();
                 const S factor = method_.growth(error, refused);
-                if (!clipped && h == step_) step_ = h * factor;
-                else if (factor < S(1)) step_ = h;
+                if (!clipped && h == step_)
+                    step_ = h * factor;
+                else if (factor < S(1))
+                    step_ = h;
                 if (first_contact_step_pending_) {
                     first_contact_step_ = h;
                     first_contact_step_pending_ = false;
@@ -276,7 +282,7 @@ private:
     // The first guard to fall through zero inside the step, if any.
     [[nodiscard]] Crossing<S> find_crossing(const Guards& at_end) {
         Crossing<S> first;
-        const bool past_end = !system_.in_flight() && method_.end()[Layout::time] > end_time_;
+        const bool past_end = !system_.in_flight() && method_.end()[system_.layout().time()] > end_time_;
         bool dense = false;
         const auto prepare = [&] {
             if (!dense) method_.prepare_dense();
@@ -284,27 +290,42 @@ private:
         };
         if (past_end) {
             prepare();
-            const auto remaining = [&](S theta) { return end_time_ - method_.at(theta, Layout::time); };
+            const auto remaining = [&](S theta) { return end_time_ - method_.at(theta, system_.layout().time()); };
             first.guard = end_of_run();
-            first.theta = first_zero<S>(remaining, end_time_ - y_[Layout::time]);
+            first.theta = first_zero<S>(remaining, end_time_ - y_[system_.layout().time()]);
             first.slope = slope(remaining, first.theta);
-        } else if (system_.in_flight() && !(method_.end()[Layout::time] < end_time_ * (S(1) - S(4) * eps()))) {
+        } else if (system_.in_flight() &&
+                   !(method_.end()[system_.layout().time()] < end_time_ * (S(1) - S(4) * eps()))) {
             first.guard = end_of_run();  // the step was cut to end there
         }
         const Guards lowest = lowest_;
         for (int j = 0; j < at_end.size(); ++j) {
             if (silent(j)) continue;
             const S start = armed_[index(j)] ? guards_[j] : S(0);
-            const bool near = lowest[j] < S(0.1) * std::min(guards_[j], at_end[j]);
+            const bool near = lowest[j] < S(0.1) * std::min(guards_[j], at_end[j]) || may_dip(j, at_end[j]);
             if (!(at_end[j] < S(0)) && !near) continue;
             prepare();
             const auto value = [&](S theta) { return guard_at(theta, j); };
             const S theta = first_zero<S>(value, start);
             if (theta < S(0)) continue;
-            if (!first || theta < first.theta - coincidence || (theta < first.theta + coincidence && outranks(j, first.guard)))
+            if (!first || theta < first.theta - coincidence ||
+                (theta < first.theta + coincidence && outranks(j, first.guard)))
                 first = {j, theta, slope(value, theta)};
         }
         return first;
+    }
+
+    // A sphere in flight could have been in the ground and out again between the ends of the step: its way down and up
+    // is no longer than its speed allows. (The stages do not know the position.)
+    [[nodiscard]] bool may_dip(int j, const S& gap) const {
+        const int i = j / per_contact;
+        if (!system_.oriented() || j % per_contact != load_guard || system_.touches(i)) return false;
+        const StateVector &y0 = method_.start(), &y1 = method_.end();
+        const auto speed = [&](const StateVector& y) {
+            return std::abs(system_.kinematics(system_.motion(y), i).depth_rate);
+        };
+        const S lasting = y1[system_.layout().time()] - y0[system_.layout().time()];
+        return guards_[j] + gap < S(2) * std::max(speed(y0), speed(y1)) * lasting;
     }
 
     // Of events at the same moment: what ends the contact goes before what ends its stick or slip.
@@ -334,7 +355,7 @@ private:
             theta = std::clamp(theta, S(0), S(1.5));
             method_.step(theta * whole, weight_);
             method_.finish();
-            const S value = crossing.guard == end_of_run() ? end_time_ - method_.end()[Layout::time]
+            const S value = crossing.guard == end_of_run() ? end_time_ - method_.end()[system_.layout().time()]
                                                            : scratch_guards_[crossing.guard];
             if (!method_.end().allFinite() || (method_.implicit() && !(method_.error(weight_) < S(1e9)))) return false;
             if (!(crossing.slope < S(0))) return true;
@@ -406,7 +427,7 @@ private:
     // motion into the other, and the exact motion slides along the border between them. Here such a contact is left
     // without force, and not looked at, for a moment that is short beside an impact; then it may decide again.
     [[nodiscard]] bool chatters(int guard) {
-        const S now = y_[Layout::time];
+        const S now = y_[system_.layout().time()];
         const S moment(1e-3 * scales_.depth() / scales_.speed());
         const int i = guard / per_contact;
         Stall& stall = stalls_[index(i)];
@@ -420,7 +441,7 @@ private:
         stall.events = 0;
         return true;
     }
-    [[nodiscard]] bool silent(int guard) const { return y_[Layout::time] < silent_until_[index(guard)]; }
+    [[nodiscard]] bool silent(int guard) const { return y_[system_.layout().time()] < silent_until_[index(guard)]; }
 
     // The spheres begin to touch. A root depth of exactly zero would say nothing of their ratio, so they start a
     // little inside, far below rounding: with s_i as sqrt(z_i) is going to be.
@@ -433,7 +454,8 @@ private:
         const S fastest = *std::max_element(depth_rate.begin(), depth_rate.end());
         for (std::size_t k = 0; k < spheres.size(); ++k) {
             const S share = std::max(depth_rate[k] / fastest, eps());
-            y_[system_.layout().root_depth(spheres[k])] = S(1e-2) * std::sqrt(eps() * system_.radius(spheres[k]) * share);
+            y_[system_.layout().root_depth(spheres[k])] =
+                S(1e-2) * std::sqrt(eps() * system_.radius(spheres[k]) * share);
         }
         for (const int i : spheres) enter_contact(i);
         first_contact_step_pending_ = true;
@@ -512,7 +534,7 @@ private:
         if (system_.in_flight()) {
             flight_step_ = step_;
         } else {
-            align_depths(y);
+            align_position(y);
         }
         // Numbers on their way to nothing become nothing, before they are denormal and slow.
         for (int c = 0; c < layout.size(); ++c)
@@ -536,17 +558,19 @@ private:
         }
     }
 
-    // s^2 and the depth of the body's position are one number kept twice; where the steps' errors have moved them
-    // apart by more than the tolerance, the position holds.
-    void align_depths(StateVector& y) const {
+    // s^2 and the depth that the body's position gives are one number kept twice. The forces follow s, so the position
+    // is moved to it: by the mean over the spheres that touch.
+    void align_position(StateVector& y) const {
         const Motion m = system_.motion(y);
-        const S apart = std::max(S(options_.tolerance * scales_.depth()), touching());
+        S apart(0);
+        int touching = 0;
         for (int i = 0; i < system_.spheres(); ++i) {
             if (!system_.touches(i)) continue;
-            S& s = y[system_.layout().root_depth(i)];
-            const S z = system_.geometric_depth(m, system_.kinematics(m, i), i);
-            if (z > S(100) * apart && std::abs(z - s * s) > apart) s = std::sqrt(z);
+            const S s = y[system_.layout().root_depth(i)];
+            apart += system_.geometric_depth(m, system_.kinematics(m, i), i) - s * s;
+            ++touching;
         }
+        y.template segment<3>(system_.layout().position()) += (system_.frame().n * (apart / S(touching))).array();
     }
 
     void account() {
@@ -580,7 +604,7 @@ private:
 
     [[nodiscard]] S theta_of(const S& time, const S& from, const S& to) const {
         if (system_.in_flight()) return (time - from) / (to - from);
-        const auto late = [&](S theta) { return method_.at(theta, Layout::time) - time; };
+        const auto late = [&](S theta) { return method_.at(theta, system_.layout().time()) - time; };
         if (!(from < time)) return S(0);
         if (!(time < to)) return S(1);
         std::uintmax_t iterations = 50;
@@ -592,18 +616,19 @@ private:
 
     template <class Prepare>
     void record_peaks(Prepare&& prepare) {
-        const std::vector<bool> rose = std::move(rises_);
-        rises_ = force_rises(method_.end(), method_.end_rate());
+        if (system_.in_flight()) return;
         const Motion m0 = system_.motion(method_.start()), m1 = system_.motion(method_.end());
         for (int i = 0; i < system_.spheres(); ++i) {
             if (!system_.touches(i)) continue;
             note_reached(method_.start(), i);
             note_reached(method_.end(), i);
+            const bool rose = rises_[index(i)];
+            rises_[index(i)] = force_rises(method_.end(), method_.end_rate(), i);
+            if (rose && !rises_[index(i)])
+                note_highest(prepare, i, [&](const StateVector& y) { return normal_force(y, i); });
             const bool sank = system_.kinematics(m0, i).depth_rate > S(0);
             const bool sinks = system_.kinematics(m1, i).depth_rate > S(0);
             if (sank && !sinks) note_highest(prepare, i, [&](const StateVector& y) { return root_depth(y, i); });
-            if (rose[index(i)] && !rises_[index(i)])
-                note_highest(prepare, i, [&](const StateVector& y) { return normal_force(y, i); });
         }
     }
 
@@ -626,23 +651,24 @@ private:
         return system_.response(y, system_.kinematics(system_.motion(y), i), i).normal_force;
     }
 
-    // Whether each contact's normal force grows along the motion.
-    [[nodiscard]] std::vector<bool> force_rises(const StateVector& y, const StateVector& rate) const {
-        std::vector<bool> rises(index(system_.spheres()), false);
-        if (system_.in_flight()) return rises;
+    // Whether contact i's normal force grows along the motion.
+    [[nodiscard]] bool force_rises(const StateVector& y, const StateVector& rate, int i) const {
+        if (!system_.touches(i)) return false;
+        const auto force = [&](const StateVector& at) {
+            const S z_rate = system_.kinematics(system_.motion(at), i).depth_rate;
+            return system_.law(i).normal.force(root_depth(at, i), z_rate).total();
+        };
         const StateVector d = rate * (S(1e-4) * step_);
-        const StateVector before = y - d, after = y + d;
-        for (int i = 0; i < system_.spheres(); ++i)
-            if (system_.touches(i)) rises[index(i)] = normal_force(after, i) > normal_force(before, i);
-        return rises;
+        return force(y + d) > force(y - d);
     }
 
     // Stops a run that its caller or its budget no longer wants.
     void watch() {
-        const double now = static_cast<double>(y_[Layout::time]);
+        const double now = static_cast<double>(y_[system_.layout().time()]);
         if (options_.progress && !options_.progress(now)) throw Interrupted("the run was interrupted");
         if (static_cast<double>(cost_.evaluations) > options_.max_evaluations)
-            throw TooExpensive("the run needed more than " + std::to_string(static_cast<std::int64_t>(options_.max_evaluations)) +
+            throw TooExpensive("the run needed more than " +
+                               std::to_string(static_cast<std::int64_t>(options_.max_evaluations)) +
                                " evaluations of the equations of motion and had reached t = " + std::to_string(now) +
                                " s of " + std::to_string(options_.end_time) +
                                " s; loosen the tolerance, shorten the run, or raise max_evaluations");
@@ -666,7 +692,7 @@ private:
     std::vector<S> silent_until_;
     std::vector<bool> rises_;
     DualSystem dual_system_;
-    Method<StateVector, RightHandSide, JacobianMatrix> method_;
+    Method<StateVector, Layout::motion_at_compile_time, RightHandSide, JacobianMatrix> method_;
 
     S step_{0}, fixed_step_{0};
     S flight_step_{0}, first_contact_step_{0};

@@ -26,13 +26,13 @@ struct GroundFrame {
         // The world axis nearest to the plane, x where there is a choice, projected onto it.
         const bool x_is_steep = std::abs(normal.x()) > 0.9;
         const Eigen::Vector3d axis = x_is_steep ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
-        const Vector3<S> a = axis.cast<S>();
-        t1 = (a - n * n.dot(a)).normalized();
+        t1 = axis.cast<S>();
+        t1 = (t1 - n * n.dot(t1)).normalized();
         t2 = n.cross(t1);
     }
 
-    [[nodiscard]] Vector2<S> to_plane(const Vector3<S>& v) const { return {t1.dot(v), t2.dot(v)}; }
-    [[nodiscard]] Vector3<S> to_world(const Vector2<S>& v) const { return t1 * v.x() + t2 * v.y(); }
+    [[nodiscard, gnu::always_inline]] Vector2<S> to_plane(const Vector3<S>& v) const { return {t1.dot(v), t2.dot(v)}; }
+    [[nodiscard, gnu::always_inline]] Vector3<S> to_world(const Vector2<S>& v) const { return t1 * v.x() + t2 * v.y(); }
 };
 
 /// One body on one plane, all contacts under the same kinds of law. `Law` is a ContactLaw over the scalar S.
@@ -63,15 +63,19 @@ public:
             radii_.push_back(S(sphere.radius));
             oriented_ = oriented_ || !sphere.center.isZero(0);
         }
-        phases_.assign(laws_.size(), Phase::flight);
-        contacts_.resize(laws_.size());
+        if constexpr (Spheres == Eigen::Dynamic) {
+            phases_.resize(laws_.size(), Phase::flight);
+            contacts_.resize(laws_.size());
+        }
     }
 
     [[nodiscard]] const Layout<Spheres>& layout() const noexcept { return layout_; }
     [[nodiscard]] const GroundFrame<S>& frame() const noexcept { return frame_; }
     [[nodiscard]] const Law& law(int i) const noexcept { return laws_[index(i)]; }
     [[nodiscard]] const S& radius(int i) const noexcept { return radii_[index(i)]; }
-    [[nodiscard]] int spheres() const noexcept { return layout_.spheres; }
+    [[nodiscard]] constexpr int spheres() const noexcept {
+        return Spheres == Eigen::Dynamic ? layout_.spheres : Spheres;
+    }
     [[nodiscard]] Phase phase(int i) const noexcept { return phases_[index(i)]; }
     void set_phase(int i, Phase phase) noexcept { phases_[index(i)] = phase; }
     [[nodiscard]] bool touches(int i) const noexcept { return phase(i) != Phase::flight; }
@@ -101,22 +105,21 @@ public:
         Matrix3<S> rotation;
     };
 
-    [[nodiscard]] Motion motion(const StateVector& y) const noexcept {
+    [[nodiscard, gnu::always_inline]] Motion motion(const StateVector& y) const noexcept {
         Motion m;
-        m.position = y.template segment<3>(Layout<Spheres>::position).matrix();
+        m.position = y.template segment<3>(layout_.position()).matrix();
         m.velocity = y.template segment<3>(Layout<Spheres>::velocity).matrix();
         const Vector3<S> L = y.template segment<3>(Layout<Spheres>::momentum).matrix();
         if (oriented_) {
             const Quaternion<S> q(Vector4(y.template segment<4>(Layout<Spheres>::orientation).matrix()));
             m.rotation = q.toRotationMatrix();
         }
-        m.angular_velocity =
-            isotropic_ ? Vector3<S>(L * inverse_inertia_(0, 0))
-                       : Vector3<S>(m.rotation * (inverse_inertia_ * (m.rotation.transpose() * L)));
+        m.angular_velocity = isotropic_ ? Vector3<S>(L * inverse_inertia_(0, 0))
+                                        : Vector3<S>(m.rotation * (inverse_inertia_ * (m.rotation.transpose() * L)));
         return m;
     }
 
-    [[nodiscard]] Kinematics kinematics(const Motion& m, int i) const noexcept {
+    [[nodiscard, gnu::always_inline]] Kinematics kinematics(const Motion& m, int i) const noexcept {
         Kinematics k;
         k.center = oriented_ ? Vector3<S>(m.rotation * centers_[index(i)]) : Vector3<S>(Vector3<S>::Zero());
         k.arm = k.center - frame_.n * radius(i);
@@ -131,52 +134,34 @@ public:
         return radius(i) + height_ - frame_.n.dot(m.position + k.center);
     }
 
-    [[nodiscard]] Vector2<S> bristle(const StateVector& y, int i) const noexcept {
+    [[nodiscard, gnu::always_inline]] Vector2<S> bristle(const StateVector& y, int i) const noexcept {
         return y.template segment<2>(layout_.bristle(i)).matrix();
     }
 
     /// What contact i does at y, in its phase.
-    [[nodiscard]] ContactResponse<S> response(const StateVector& y, const Kinematics& k, int i) const noexcept {
+    [[nodiscard, gnu::always_inline]] ContactResponse<S> response(const StateVector& y, const Kinematics& k,
+                                                                  int i) const noexcept {
         return law(i).respond(phase(i), root_depth(y, i), k.depth_rate, k.slip, bristle(y, i));
     }
 
     /// dy/dsigma and, where `guards` is given, what bounds the phases.
     void evaluate(const StateVector& y, StateVector& rate, Guards* guards = nullptr) const noexcept {
-        const Motion m = motion(y);
-        Vector3<S> force = Vector3<S>::Zero(), torque = Vector3<S>::Zero();
-        for (int i = 0; i < spheres(); ++i) {
-            Contact& c = contacts_[index(i)];
-            if (!touches(i)) {
-                if (guards) c.kinematics = kinematics(m, i);
-                continue;
-            }
-            c.kinematics = kinematics(m, i);
-            c.response = response(y, c.kinematics, i);
-            const Vector3<S> f = frame_.n * c.response.normal_force + frame_.to_world(c.response.friction_force);
-            force += f;
-            torque += c.kinematics.arm.cross(f);
+        if constexpr (Spheres == Eigen::Dynamic) {
+            evaluate_with(contacts_, y, rate, guards);
+        } else {
+            std::array<Contact, Spheres> contacts;
+            evaluate_with(contacts, y, rate, guards);
         }
-        const Vector3<S> acceleration = gravity_ + force / mass_;  // (34)
-        if constexpr (Law::has_clutch) resolve_plastic_clutches(y, m, acceleration, torque);
-
-        const S g = time_rate(y);
-        rate.template segment<3>(Layout<Spheres>::position) = (m.velocity * g).array();
-        rate.template segment<3>(Layout<Spheres>::velocity) = (acceleration * g).array();
-        rate.template segment<3>(Layout<Spheres>::momentum) = (torque * g).array();  // (35)
-        rate.template segment<4>(Layout<Spheres>::orientation) = orientation_rate(y, m.angular_velocity * g);
-        rate[Layout<Spheres>::time] = g;
-        for (int i = 0; i < spheres(); ++i) contact_rate(y, rate, i, g);
-        if (guards) fill_guards(y, m, *guards);
     }
 
     /// s of contact i, never exactly zero, so that it can stand in a denominator.
-    [[nodiscard]] S root_depth(const StateVector& y, int i) const noexcept {
+    [[nodiscard, gnu::always_inline]] S root_depth(const StateVector& y, int i) const noexcept {
         const S s = y[layout_.root_depth(i)];
         return s == S(0) ? S(1e-150) : s;
     }
 
     /// g = dt/dsigma.
-    [[nodiscard]] S time_rate(const StateVector& y) const noexcept {
+    [[nodiscard, gnu::always_inline]] S time_rate(const StateVector& y) const noexcept {
         if constexpr (Spheres == 1) {
             return touches(0) ? root_depth(y, 0) : S(1);
         } else {
@@ -195,6 +180,9 @@ public:
 
 private:
     using Vector4 = Eigen::Matrix<S, 4, 1>;
+    template <class T>
+    using PerContact = std::conditional_t<Spheres == Eigen::Dynamic, std::vector<T>,
+                                          std::array<T, Spheres == Eigen::Dynamic ? 0 : Spheres>>;
 
     struct Contact {
         Kinematics kinematics;
@@ -204,12 +192,40 @@ private:
 
     static constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
+    template <class Contacts>
+    [[gnu::always_inline]] void evaluate_with(Contacts& contacts, const StateVector& y, StateVector& rate,
+                                              Guards* guards) const noexcept {
+        const Motion m = motion(y);
+        Vector3<S> force = Vector3<S>::Zero(), torque = Vector3<S>::Zero();
+        for (int i = 0; i < spheres(); ++i) {
+            Contact& c = contacts[index(i)];
+            c.kinematics = kinematics(m, i);
+            if (!touches(i)) continue;
+            c.response = response(y, c.kinematics, i);
+            const Vector3<S> f = frame_.n * c.response.normal_force + frame_.to_world(c.response.friction_force);
+            force += f;
+            torque += c.kinematics.arm.cross(f);
+        }
+        const Vector3<S> acceleration = gravity_ + force / mass_;  // (34)
+        if constexpr (Law::has_clutch) resolve_plastic_clutches(contacts, y, m, acceleration, torque);
+
+        const S g = time_rate(y);
+        rate.template segment<3>(layout_.position()) = (m.velocity * g).array();
+        rate.template segment<3>(Layout<Spheres>::velocity) = (acceleration * g).array();
+        rate.template segment<3>(Layout<Spheres>::momentum) = (torque * g).array();  // (35)
+        rate.template segment<4>(Layout<Spheres>::orientation) = orientation_rate(y, m.angular_velocity * g);
+        rate[layout_.time()] = g;
+        for (int i = 0; i < spheres(); ++i) contact_rate(contacts[index(i)], y, rate, i, g);
+        if (guards) fill_guards(contacts, y, m, *guards);
+    }
+
     // Where D_t = C_V = 0 the clutch's velocity depends on how fast its load changes, thus on the acceleration.
-    void resolve_plastic_clutches(const StateVector& y, const Motion& m, const Vector3<S>& acceleration,
-                                  const Vector3<S>& torque) const noexcept {
+    template <class Contacts>
+    void resolve_plastic_clutches(Contacts& contacts, const StateVector& y, const Motion& m,
+                                  const Vector3<S>& acceleration, const Vector3<S>& torque) const noexcept {
         for (int i = 0; i < spheres(); ++i) {
             if (phase(i) != Phase::slip || !law(i).friction.plastic()) continue;
-            Contact& c = contacts_[index(i)];
+            Contact& c = contacts[index(i)];
             const Vector3<S>& omega = m.angular_velocity;
             const Vector3<S> L = y.template segment<3>(Layout<Spheres>::momentum).matrix();
             const Vector3<S> turning = torque - omega.cross(L);
@@ -228,21 +244,23 @@ private:
                               .template force<Law::ScalePower>(moving_s, moving_rate)
                               .total()
                               .gradient[0];
-            c.response = law(i).respond(Phase::slip, s, c.kinematics.depth_rate, c.kinematics.slip, bristle(y, i),
-                                        c.load_rate);
+            c.response =
+                law(i).respond(Phase::slip, s, c.kinematics.depth_rate, c.kinematics.slip, bristle(y, i), c.load_rate);
         }
     }
 
-    [[nodiscard]] Eigen::Array<S, 4, 1> orientation_rate(const StateVector& y, const Vector3<S>& w) const noexcept {
+    [[nodiscard, gnu::always_inline]] Eigen::Array<S, 4, 1> orientation_rate(const StateVector& y,
+                                                                             const Vector3<S>& w) const noexcept {
         // qdot = (1/2) (0, omega) q
         const auto q = y.template segment<4>(Layout<Spheres>::orientation);
         const S half(0.5);
-        return {half * (w.x() * q[3] + w.y() * q[2] - w.z() * q[1]), half * (w.y() * q[3] + w.z() * q[0] - w.x() * q[2]),
-                half * (w.z() * q[3] + w.x() * q[1] - w.y() * q[0]),
-                -half * (w.x() * q[0] + w.y() * q[1] + w.z() * q[2])};
+        return {
+            half * (w.x() * q[3] + w.y() * q[2] - w.z() * q[1]), half * (w.y() * q[3] + w.z() * q[0] - w.x() * q[2]),
+            half * (w.z() * q[3] + w.x() * q[1] - w.y() * q[0]), -half * (w.x() * q[0] + w.y() * q[1] + w.z() * q[2])};
     }
 
-    void contact_rate(const StateVector& y, StateVector& rate, int i, const S& g) const noexcept {
+    [[gnu::always_inline]] void contact_rate(const Contact& c, const StateVector& y, StateVector& rate, int i,
+                                             const S& g) const noexcept {
         const int b = layout_.bristle(i), e = layout_.ledger(i);
         if (!touches(i)) {
             // s stays 0. The bristle recovers as an exponential that the simulator applies in closed form.
@@ -251,7 +269,6 @@ private:
             for (int k = 0; k < Layout<Spheres>::ledger_per_contact; ++k) rate[e + k] = S(0);
             return;
         }
-        const Contact& c = contacts_[index(i)];
         const ContactResponse<S>& r = c.response;
         S share(0.5);  // g / (2 s)
         if constexpr (Spheres != 1) share = g / (S(2) * root_depth(y, i));
@@ -264,9 +281,11 @@ private:
         rate[e + Layout<Spheres>::stiffness_change] = r.stiffness_change_power * g;
     }
 
-    void fill_guards(const StateVector& y, const Motion& m, Guards& guards) const noexcept {
+    template <class Contacts>
+    [[gnu::always_inline]] void fill_guards(const Contacts& contacts, const StateVector& y, const Motion& m,
+                                            Guards& guards) const noexcept {
         for (int i = 0; i < spheres(); ++i) {
-            const Contact& c = contacts_[index(i)];
+            const Contact& c = contacts[index(i)];
             S& load = guards[guards_per_contact * i + load_guard];
             S& clutch = guards[guards_per_contact * i + clutch_guard];
             S& depth = guards[guards_per_contact * i + depth_guard];
@@ -308,8 +327,8 @@ private:
     std::vector<Vector3<S>> centers_;
     std::vector<S> radii_;
     std::vector<Law> laws_;
-    std::vector<Phase> phases_;
-    mutable std::vector<Contact> contacts_;  // scratch of evaluate
+    PerContact<Phase> phases_{};
+    mutable std::vector<Contact> contacts_;  // scratch of evaluate, where its size is not known at compile time
 };
 
 template <class Law, int Spheres>
@@ -332,7 +351,7 @@ auto System<Law, Spheres>::cast() const {
     for (const auto& r : radii_) other.radii_.push_back(T(r));
     for (const auto& l : laws_) other.laws_.push_back(l.template cast<T>());
     other.phases_ = phases_;
-    other.contacts_.resize(contacts_.size());
+    if constexpr (Spheres == Eigen::Dynamic) other.contacts_.resize(contacts_.size());
     return other;
 }
 

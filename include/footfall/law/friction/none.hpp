@@ -17,8 +17,10 @@ struct NoFriction {
         return {};
     }
 
-    static constexpr LawDescription description{
-        .name = "none", .formula = "F_f = 0", .source = "the frictionless limit", .limits = "no tangential force at all"};
+    static constexpr LawDescription description{.name = "none",
+                                                .formula = "F_f = 0",
+                                                .source = "the frictionless limit",
+                                                .limits = "no tangential force at all"};
 
     static constexpr auto parameters() noexcept { return std::array<Parameter<NoFriction<double>>, 0>{}; }
 };

@@ -32,8 +32,8 @@ namespace footfall {
 /// What a friction law gives in a known phase.
 template <class S>
 struct FrictionResponse {
-    Vector2<S> force;         ///< F_f over the scale
-    Vector2<S> bristle_rate;  ///< udot [m/s]
+    Vector2<S> force;            ///< F_f over the scale
+    Vector2<S> bristle_rate;     ///< udot [m/s]
     Vector2<S> clutch_velocity;  ///< V_clutch = V - udot [m/s]. (30)
 };
 
@@ -43,10 +43,10 @@ struct SpringDamperClutch {
     static constexpr int ScalePower = ScalePower_;
     static constexpr bool has_bristle = true;
 
-    S stiffness;        ///< K_t, tangential stiffness [N/m^1.5 or N/m], > 0. (23) or (19)
-    S damping;          ///< D_t, tangential damping [N s/m^1.5 or N s/m], >= 0. (24) or (19)
-    S coefficient;      ///< mu, coefficient of friction [1], >= 0. (25)
-    S viscous = S(0);   ///< C_V, viscous friction [N s/m], >= 0. (27)
+    S stiffness;       ///< K_t, tangential stiffness [N/m^1.5 or N/m], > 0. (23) or (19)
+    S damping;         ///< D_t, tangential damping [N s/m^1.5 or N s/m], >= 0. (24) or (19)
+    S coefficient;     ///< mu, coefficient of friction [1], >= 0. (25)
+    S viscous = S(0);  ///< C_V, viscous friction [N s/m], >= 0. (27)
 
     [[nodiscard]] constexpr S scale(const S& s) const noexcept { return power<ScalePower>(s); }
 
@@ -75,6 +75,7 @@ struct SpringDamperClutch {
                                            const Vector2<S>& u) const noexcept {
         const S &K_t = stiffness, &D_t = damping, &mu = coefficient, &C_V = viscous;
         if (plastic()) {
+            if (!(mu > S(0))) return {Vector2<S>::Zero(), Vector2<S>::Zero(), V};
             const Vector2<S> V_clutch = plastic_clutch_velocity(phi_n_rate, V, u);
             return {-K_t * u, V - V_clutch, V_clutch};
         }
@@ -90,8 +91,8 @@ struct SpringDamperClutch {
     }
 
     /// Positive while the clutch slips, and zero where it takes hold again.
-    [[nodiscard]] S slip_margin([[maybe_unused]] const S& scale, const S& phi_n, const S& phi_n_rate, const Vector2<S>& V,
-                                const Vector2<S>& u) const noexcept {
+    [[nodiscard]] S slip_margin([[maybe_unused]] const S& scale, const S& phi_n, const S& phi_n_rate,
+                                const Vector2<S>& V, const Vector2<S>& u) const noexcept {
         if (!(coefficient > S(0))) return S(1);
         if (!plastic()) return -cone_margin(phi_n, V, u);
         return plastic_clutch_velocity(phi_n_rate, V, u).dot(direction(V, u));

@@ -29,8 +29,8 @@ struct AzadFeatherstoneNormal {
     template <int Over = 0>
     [[nodiscard]] constexpr NormalForce<S> force(const S& s, const S& z_rate) const noexcept {
         const S &K_n = stiffness, &D_n = damping;
-        return {.elastic = K_n * power<3 - Over>(s),                   // (10)
-                .dissipative = D_n * power<1 - Over>(s) * z_rate};     // (12)
+        return {.elastic = K_n * power<3 - Over>(s),                // (10)
+                .dissipative = D_n * power<1 - Over>(s) * z_rate};  // (12)
     }
 
     /// The unclamped force over its leading power of s: it changes sign where the force does, also at s = 0.
@@ -48,18 +48,16 @@ struct AzadFeatherstoneNormal {
         return {T(stiffness), T(damping)};
     }
 
-    static constexpr LawDescription description{
-        .name = "azad-featherstone",
-        .formula = "f = max(K_n z^1.5 + D_n z^0.5 zdot, 0)",
-        .source = "Azad & Featherstone 2010, (13), (14)",
-        .limits = "no adhesion, no plasticity; depth small beside the radius"};
+    static constexpr LawDescription description{.name = "azad-featherstone",
+                                                .formula = "f = max(K_n z^1.5 + D_n z^0.5 zdot, 0)",
+                                                .source = "Azad & Featherstone 2010, (13), (14)",
+                                                .limits = "no adhesion, no plasticity; depth small beside the radius"};
 
     static constexpr auto parameters() noexcept {
         using Law = AzadFeatherstoneNormal<double>;
-        return std::array{
-            Parameter<Law>{"stiffness", "K_n", "N/m^1.5", &Law::stiffness, "normal stiffness", ""},
-            Parameter<Law>{"damping", "D_n", "N s/m^1.5", &Law::damping, "normal damping",
-                           "elastic: Hertz's law, restitution 1"}};
+        return std::array{Parameter<Law>{"stiffness", "K_n", "N/m^1.5", &Law::stiffness, "normal stiffness", ""},
+                          Parameter<Law>{"damping", "D_n", "N s/m^1.5", &Law::damping, "normal damping",
+                                         "elastic: Hertz's law, restitution 1"}};
     }
 };
 

@@ -21,11 +21,11 @@ template <class S = double>
 struct HuntCrossleyNormal {
     using value_type = S;
 
-    S stiffness;      ///< k [N/m^n], > 0. Azad & Featherstone 2010, (1).
-    S damping;        ///< lambda [N s^q/m^(p+q)], >= 0. Azad & Featherstone 2010, (1).
-    S n = S(1.5);     ///< exponent of the depth in the spring, > 0
-    S p = S(1.5);     ///< exponent of the depth in the damper, >= 0
-    S q = S(1);       ///< exponent of the rate in the damper, > 0
+    S stiffness;   ///< k [N/m^n], > 0. Azad & Featherstone 2010, (1).
+    S damping;     ///< lambda [N s^q/m^(p+q)], >= 0. Azad & Featherstone 2010, (1).
+    S n = S(1.5);  ///< exponent of the depth in the spring, > 0
+    S p = S(1.5);  ///< exponent of the depth in the damper, >= 0
+    S q = S(1);    ///< exponent of the rate in the damper, > 0
 
     /// f / s^Over before the clamp, s = sqrt(z).
     template <int Over = 0>
@@ -35,7 +35,7 @@ struct HuntCrossleyNormal {
             const S z = power<3 - Over>(s);
             return {k * z, lambda * z * z_rate};  // (2)
         }
-        return {k * depth_power(s, S(2) * n - S(Over)),                            // (1)
+        return {k * depth_power(s, S(2) * n - S(Over)),  // (1)
                 lambda * depth_power(s, S(2) * p - S(Over)) * rate_power(z_rate)};
     }
 
@@ -67,14 +67,19 @@ struct HuntCrossleyNormal {
 
     static constexpr auto parameters() noexcept {
         using Law = HuntCrossleyNormal<double>;
-        return std::array{
-            Parameter<Law>{"stiffness", "k", "N/m^n", &Law::stiffness, "normal stiffness", "", {}, true},
-            Parameter<Law>{"damping", "lambda", "N s^q/m^(p+q)", &Law::damping, "normal damping",
-                           "elastic, restitution 1", {}, true},
-            Parameter<Law>{"n", "n", "1", &Law::n, "exponent of the depth in the spring", "", 1.5},
-            Parameter<Law>{"p", "p", "1", &Law::p, "exponent of the depth in the damper",
-                           "the damper acts at full strength from touchdown on", 1.5},
-            Parameter<Law>{"q", "q", "1", &Law::q, "exponent of the rate in the damper", "", 1.0}};
+        return std::array{Parameter<Law>{"stiffness", "k", "N/m^n", &Law::stiffness, "normal stiffness", "", {}, true},
+                          Parameter<Law>{"damping",
+                                         "lambda",
+                                         "N s^q/m^(p+q)",
+                                         &Law::damping,
+                                         "normal damping",
+                                         "elastic, restitution 1",
+                                         {},
+                                         true},
+                          Parameter<Law>{"n", "n", "1", &Law::n, "exponent of the depth in the spring", "", 1.5},
+                          Parameter<Law>{"p", "p", "1", &Law::p, "exponent of the depth in the damper",
+                                         "the damper acts at full strength from touchdown on", 1.5},
+                          Parameter<Law>{"q", "q", "1", &Law::q, "exponent of the rate in the damper", "", 1.0}};
     }
 
 private:

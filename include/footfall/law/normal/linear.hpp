@@ -48,9 +48,9 @@ struct LinearNormal {
 
     static constexpr auto parameters() noexcept {
         using Law = LinearNormal<double>;
-        return std::array{Parameter<Law>{"stiffness", "k", "N/m", &Law::stiffness, "normal stiffness", ""},
-                          Parameter<Law>{"damping", "d", "N s/m", &Law::damping, "normal damping",
-                                         "elastic, restitution 1"}};
+        return std::array{
+            Parameter<Law>{"stiffness", "k", "N/m", &Law::stiffness, "normal stiffness", ""},
+            Parameter<Law>{"damping", "d", "N s/m", &Law::damping, "normal damping", "elastic, restitution 1"}};
     }
 };
 
