@@ -302,12 +302,16 @@ private:
         for (int j = 0; j < at_end.size(); ++j) {
             if (silent(j)) continue;
             const S start = armed_[index(j)] ? guards_[j] : S(0);
-            const bool near = lowest[j] < S(0.1) * std::min(guards_[j], at_end[j]) || may_dip(j, at_end[j]);
+            const bool near = lowest[j] < S(0.1) * std::min(guards_[j], at_end[j]) || turns_round(j);
             if (!(at_end[j] < S(0)) && !near) continue;
             prepare();
             const auto value = [&](S theta) { return guard_at(theta, j); };
             const S theta = first_zero<S>(value, start);
             if (theta < S(0)) continue;
+            if (!system_.touches(j / per_contact) && !approaches(theta, j / per_contact)) {
+                armed_[index(j)] = false;  // rounding has put a sphere that is leaving on the wrong side
+                continue;
+            }
             if (!first || theta < first.theta - coincidence ||
                 (theta < first.theta + coincidence && outranks(j, first.guard)))
                 first = {j, theta, slope(value, theta)};
@@ -315,23 +319,23 @@ private:
         return first;
     }
 
-    // A sphere in flight could have been in the ground and out again between the ends of the step: its way down and up
-    // is no longer than its speed allows. (The stages do not know the position.)
-    [[nodiscard]] bool may_dip(int j, const S& gap) const {
-        const int i = j / per_contact;
-        if (!system_.oriented() || j % per_contact != load_guard || system_.touches(i)) return false;
-        const StateVector &y0 = method_.start(), &y1 = method_.end();
-        const auto speed = [&](const StateVector& y) {
-            return std::abs(system_.kinematics(system_.motion(y), i).depth_rate);
-        };
-        const S lasting = y1[system_.layout().time()] - y0[system_.layout().time()];
-        return guards_[j] + gap < S(2) * std::max(speed(y0), speed(y1)) * lasting;
+    // A sphere in flight that turns round within the step may have been in the ground and out again. (The stages do not
+    // know the position.)
+    [[nodiscard]] bool turns_round(int guard) const {
+        const int i = guard / per_contact;
+        if (guard % per_contact != load_guard || system_.touches(i)) return false;
+        const auto rate = [&](const StateVector& y) { return system_.kinematics(system_.motion(y), i).depth_rate; };
+        return rate(method_.start()) > S(0) && rate(method_.end()) < S(0);
     }
 
     // Of events at the same moment: what ends the contact goes before what ends its stick or slip.
     [[nodiscard]] bool outranks(int j, int other) const {
         if (other == end_of_run() || j / per_contact != other / per_contact) return false;
         return j % per_contact == depth_guard || other % per_contact == clutch_guard;
+    }
+
+    [[nodiscard]] bool approaches(const S& theta, int i) const {
+        return system_.kinematics(system_.motion(method_.at(theta)), i).depth_rate > S(0);
     }
 
     [[nodiscard]] S guard_at(const S& theta, int j) {
