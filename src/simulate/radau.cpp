@@ -278,6 +278,7 @@ S RadauIIA<S>::estimate(const S& h, const Vector& weight) {
         if (std::isfinite(static_cast<double>(again))) error = std::min(error, again);
     }
     const Eigen::Index rest = y0_.size() - n;
+    if (rest == 0) return error;
     Vector integral = gamma0 * h * rate0_.tail(rest);
     for (std::size_t i = 0; i < stages; ++i)
         integral += h * S(table.estimate_f[static_cast<int>(i)]) * rates_[i].tail(rest);

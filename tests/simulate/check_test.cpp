@@ -173,6 +173,20 @@ TEST(Budget, ARunThatNeedsTooManyEvaluationsSaysHowFarItCame) {
     }
 }
 
+TEST(Budget, ARunThatIsOutOfReachIsRefusedBeforeItStarts) {
+    Simulation s = test::paper_ball(0.05, 1);
+    s.contacts[0].normal = AzadFeatherstoneNormal<>{1e30, 1e10};
+    bool started = false;
+    s.options.progress = [&](double) { return started = true; };
+    try {
+        (void)footfall::run(s);
+        ADD_FAILURE() << "was not refused";
+    } catch (const TooExpensive& error) {
+        EXPECT_NE(std::string(error.what()).find("would need about"), std::string::npos) << error.what();
+    }
+    EXPECT_FALSE(started);
+}
+
 TEST(Budget, IsNotTouchedByARunThatKeepsIt) {
     Simulation s = test::paper_ball(0.05, 0.5);
     const auto run = footfall::run(s);

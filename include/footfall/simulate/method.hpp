@@ -18,6 +18,8 @@ public:
     using S = typename StateVector::Scalar;
     using Vector = typename RadauIIA<S>::Vector;
     using Matrix = typename RadauIIA<S>::Matrix;
+    /// Evaluations of an explicit step.
+    static constexpr int stages = DormandPrince853<StateVector, Motion>::stages;
 
     Method(F f, J jacobian, int motion)
         : f_(std::move(f)),

@@ -34,7 +34,8 @@ public:
         const double weight = mass_ * gravity.norm();
         if (weight > 0) {
             const double s = solve([&](double x) { return elastic_force(x); }, weight);
-            see_energy(weight * s * s);
+            static_depth_ = s * s;
+            see_energy(weight * static_depth_);
         }
     }
 
@@ -50,6 +51,9 @@ public:
     [[nodiscard]] double depth() const noexcept { return depth_; }
     [[nodiscard]] double root_depth() const noexcept { return std::sqrt(depth_); }
     [[nodiscard]] double speed() const noexcept { return speed_; }
+
+    /// How deep the body sinks in at rest, on one sphere [m]; 0 without gravity.
+    [[nodiscard]] double static_depth() const noexcept { return static_depth_; }
 
     /// One over the error that is allowed in each component of y.
     void weights(const StateVector& y, StateVector& weight) const {
@@ -113,6 +117,7 @@ private:
     const System* system_;
     double mass_, tolerance_;
     double largest_moment_ = 0, radius_ = 0;
+    double static_depth_ = 0;
     double energy_ = 0, depth_ = 1, speed_ = 1, bristle_floor_ = 1;
     std::vector<double> bristle_seen_;
 };

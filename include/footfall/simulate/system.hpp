@@ -71,6 +71,7 @@ public:
 
     [[nodiscard]] const Layout<Spheres>& layout() const noexcept { return layout_; }
     [[nodiscard]] const GroundFrame<S>& frame() const noexcept { return frame_; }
+    [[nodiscard]] const Vector3<S>& gravity() const noexcept { return gravity_; }
     [[nodiscard]] const Law& law(int i) const noexcept { return laws_[index(i)]; }
     [[nodiscard]] const S& radius(int i) const noexcept { return radii_[index(i)]; }
     [[nodiscard]] constexpr int spheres() const noexcept {
