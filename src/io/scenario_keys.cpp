@@ -59,8 +59,8 @@ std::vector<std::string> law_names(bool materials) {
 
 /// [contact.normal] and [contact.friction].
 template <class Variant>
-Table law_table(std::string description, bool materials) {
-    Table table{.description = std::move(description),
+Table law_table(const std::string& description, bool materials) {
+    Table table{.description = description,
                 .keys = {{.name = "law",
                           .form = Form::choice,
                           .required = true,

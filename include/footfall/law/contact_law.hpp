@@ -51,16 +51,18 @@ struct ContactLaw {
 
     /// The response to a depth z [m], its rate [m/s], the slip velocity V [m/s] and the bristle u [m]; the phase is
     /// decided here. Where D_t = C_V = 0 and the contact slips, `bristle_rate` takes the load as constant.
-    [[nodiscard]] ContactResponse<S> evaluate(const S& depth, const S& depth_rate, const Vector2<S>& V,
-                                              const Vector2<S>& u) const noexcept {
+    [[nodiscard, gnu::always_inline]] ContactResponse<S> evaluate(const S& depth, const S& depth_rate,
+                                                                  const Vector2<S>& V,
+                                                                  const Vector2<S>& u) const noexcept {
         using std::sqrt;
-        if (!(depth > S(0))) return respond(Phase::flight, S(0), depth_rate, V, u);
-        const S s = sqrt(depth);
-        return respond(phase_of(s, depth_rate, V, u), s, depth_rate, V, u);
+        const bool touches = depth > S(0);
+        const S s = touches ? S(sqrt(depth)) : S(0);
+        return respond(touches ? phase_of(s, depth_rate, V, u) : Phase::flight, s, depth_rate, V, u);
     }
 
     /// The phase of a contact with z = s^2 > 0. (14), (26)
-    [[nodiscard]] Phase phase_of(const S& s, const S& z_rate, const Vector2<S>& V, const Vector2<S>& u) const noexcept {
+    [[nodiscard, gnu::always_inline]] Phase phase_of(const S& s, const S& z_rate, const Vector2<S>& V,
+                                                     const Vector2<S>& u) const noexcept {
         const S phi_n = normal.template force<ScalePower>(s, z_rate).total();
         if (!(phi_n > S(0))) return Phase::recovering;
         if constexpr (Friction::has_bristle) {

@@ -124,7 +124,7 @@ private:
         }
         for (int i = 0; i < system_.spheres(); ++i)
             if (!system_.touches(i) && about_to_touch(y_, i)) pressed.push_back(i);
-        see();
+        see(ledger_of(system_, y_));
         recorder_.begin(snapshot(y_));
         for (int i = 0; i < system_.spheres(); ++i) {
             if (!system_.touches(i)) continue;
@@ -581,12 +581,9 @@ private:
     void account() {
         const Ledger ledger = ledger_of(system_, y_);
         recorder_.account(ledger);
-        scales_.see(y_, ledger.kinetic + ledger.contact.stored());
+        see(ledger);
     }
-    void see() {
-        const Ledger ledger = ledger_of(system_, y_);
-        scales_.see(y_, ledger.kinetic + ledger.contact.stored());
-    }
+    void see(const Ledger& ledger) { scales_.see(y_, ledger.kinetic + ledger.contact.stored()); }
 
     [[nodiscard]] Snapshot snapshot(const StateVector& y) const { return snapshot_of(system_, y); }
 

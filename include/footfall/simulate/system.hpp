@@ -50,7 +50,6 @@ public:
     System(const Body& body, const Ground& ground, const Eigen::Vector3d& gravity, std::vector<Law> laws)
         : layout_{static_cast<int>(body.spheres.size())},
           mass_(body.mass),
-          inertia_(body.inertia.cast<S>()),
           inverse_inertia_(body.inertia.inverse().cast<S>()),
           gravity_(gravity.cast<S>()),
           frame_(ground.normal),
@@ -182,8 +181,9 @@ public:
 private:
     using Vector4 = Eigen::Matrix<S, 4, 1>;
     template <class T>
-    using PerContact = std::conditional_t<Spheres == Eigen::Dynamic, std::vector<T>,
-                                          std::array<T, Spheres == Eigen::Dynamic ? 0 : Spheres>>;
+    using PerContact =
+        std::conditional_t<Spheres == Eigen::Dynamic, std::vector<T>,
+                           std::array<T, static_cast<std::size_t>(Spheres == Eigen::Dynamic ? 0 : Spheres)>>;
 
     struct Contact {
         Kinematics kinematics;
@@ -319,7 +319,7 @@ private:
 
     Layout<Spheres> layout_;
     S mass_;
-    Matrix3<S> inertia_, inverse_inertia_;
+    Matrix3<S> inverse_inertia_;
     bool isotropic_ = false;  // inertia is a multiple of the identity: omega = L / I
     bool oriented_ = false;   // the motion depends on the orientation
     Vector3<S> gravity_;
@@ -339,7 +339,6 @@ auto System<Law, Spheres>::cast() const {
     System<Cast, Spheres> other;
     other.layout_ = layout_;
     other.mass_ = T(mass_);
-    other.inertia_ = inertia_.template cast<T>();
     other.inverse_inertia_ = inverse_inertia_.template cast<T>();
     other.isotropic_ = isotropic_;
     other.oriented_ = oriented_;

@@ -51,28 +51,32 @@ struct SpringDamperClutch {
     [[nodiscard]] constexpr S scale(const S& s) const noexcept { return power<ScalePower>(s); }
 
     /// f_stick over the scale: what the friction would be if the clutch held. (22)
-    [[nodiscard]] Vector2<S> stick_force(const Vector2<S>& V, const Vector2<S>& u) const noexcept {
+    [[nodiscard, gnu::always_inline]] Vector2<S> stick_force(const Vector2<S>& V, const Vector2<S>& u) const noexcept {
         return -(stiffness * u + damping * V);
     }
 
     /// mu phi_n - |phi|: how far f_stick is inside the friction cone, over the scale. (26)
-    [[nodiscard]] S cone_margin(const S& phi_n, const Vector2<S>& V, const Vector2<S>& u) const noexcept {
+    [[nodiscard, gnu::always_inline]] S cone_margin(const S& phi_n, const Vector2<S>& V,
+                                                    const Vector2<S>& u) const noexcept {
         return coefficient * phi_n - norm(stick_force(V, u));
     }
 
     /// Whether the clutch holds; one without a coefficient of friction never does. (26)
-    [[nodiscard]] bool holds(const S& phi_n, const Vector2<S>& V, const Vector2<S>& u) const noexcept {
+    [[nodiscard, gnu::always_inline]] bool holds(const S& phi_n, const Vector2<S>& V,
+                                                 const Vector2<S>& u) const noexcept {
         return coefficient > S(0) && !(cone_margin(phi_n, V, u) < S(0));
     }
 
-    [[nodiscard]] FrictionResponse<S> stick(const Vector2<S>& V, const Vector2<S>& u) const noexcept {
+    [[nodiscard, gnu::always_inline]] FrictionResponse<S> stick(const Vector2<S>& V,
+                                                                const Vector2<S>& u) const noexcept {
         return {stick_force(V, u), V, Vector2<S>::Zero()};  // (26), (32)
     }
 
     /// The force and bristle rate while the clutch slips. `phi_n_rate` is d(phi_n)/dt; it matters only
     /// where D_t = C_V = 0.
-    [[nodiscard]] FrictionResponse<S> slip(const S& scale, const S& phi_n, const S& phi_n_rate, const Vector2<S>& V,
-                                           const Vector2<S>& u) const noexcept {
+    [[nodiscard, gnu::always_inline]] FrictionResponse<S> slip(const S& scale, const S& phi_n, const S& phi_n_rate,
+                                                               const Vector2<S>& V,
+                                                               const Vector2<S>& u) const noexcept {
         const S &K_t = stiffness, &D_t = damping, &mu = coefficient, &C_V = viscous;
         if (plastic()) {
             if (!(mu > S(0))) return {Vector2<S>::Zero(), Vector2<S>::Zero(), V};
@@ -122,12 +126,13 @@ struct SpringDamperClutch {
     }
 
 protected:
-    /// The parameters of a law that derives from this, in the units that its scale makes.
+    /// The parameters of a law that derives from this, in its own symbols and the units that its scale makes.
     template <class Law>
-    static constexpr auto parameters_of(std::string_view stiffness_unit, std::string_view damping_unit) noexcept {
+    static constexpr auto parameters_of(std::string_view stiffness_symbol, std::string_view stiffness_unit,
+                                        std::string_view damping_symbol, std::string_view damping_unit) noexcept {
         return std::array{
-            Parameter<Law>{"stiffness", "K_t", stiffness_unit, &Law::stiffness, "tangential stiffness", ""},
-            Parameter<Law>{"damping", "D_t", damping_unit, &Law::damping, "tangential damping",
+            Parameter<Law>{"stiffness", stiffness_symbol, stiffness_unit, &Law::stiffness, "tangential stiffness", ""},
+            Parameter<Law>{"damping", damping_symbol, damping_unit, &Law::damping, "tangential damping",
                            "no presliding loss; with viscous = 0 an elastic-plastic bristle"},
             Parameter<Law>{"coefficient", "mu", "1", &Law::coefficient, "coefficient of friction",
                            "no Coulomb friction; with viscous = 0 no friction at all"},
