@@ -153,8 +153,11 @@ private:
         const S g = system_.time_rate(y);
         const S small = std::sqrt(eps()) * S(scales_.depth() / scales_.speed());
         const StateVector later = y + rate * (small / g);
-        const auto at = [&](const StateVector& x) { return system_.kinematics(system_.motion(x), i).depth_rate; };
-        return (at(later) - at(y)) / small;
+        return (depth_rate(later, i) - depth_rate(y, i)) / small;
+    }
+
+    [[nodiscard]] S depth_rate(const StateVector& y, int i) const {
+        return system_.kinematics(system_.motion(y), i).depth_rate;
     }
 
     /// Distances below this are rounding [m].
@@ -269,7 +272,7 @@ private:
         return S(0.5) / (spin * system_.time_rate(y_));
     }
 
-    // A guess at the step after a touchdown: a tenth of the depth's root, or what served the last time.
+    // A guess at the step after a touchdown: a fiftieth of the way to the full depth, or what served the last time.
     [[nodiscard]] S first_step() const {
         if (system_.in_flight()) return S(scales_.depth() / scales_.speed());
         if (first_contact_step_ > S(0)) return first_contact_step_;
@@ -309,7 +312,7 @@ private:
             const auto value = [&](S theta) { return guard_at(theta, j); };
             const S theta = first_zero<S>(value, start);
             if (theta < S(0)) continue;
-            if (!system_.touches(j / per_contact) && !approaches(theta, j / per_contact)) {
+            if (!system_.touches(j / per_contact) && !(depth_rate(method_.at(theta), j / per_contact) > S(0))) {
                 armed_[index(j)] = false;  // rounding has put a sphere that is leaving on the wrong side
                 continue;
             }
@@ -325,18 +328,13 @@ private:
     [[nodiscard]] bool turns_round(int guard) const {
         const int i = guard / per_contact;
         if (guard % per_contact != load_guard || system_.touches(i)) return false;
-        const auto rate = [&](const StateVector& y) { return system_.kinematics(system_.motion(y), i).depth_rate; };
-        return rate(method_.start()) > S(0) && rate(method_.end()) < S(0);
+        return depth_rate(method_.start(), i) > S(0) && depth_rate(method_.end(), i) < S(0);
     }
 
     // Of events at the same moment: what ends the contact goes before what ends its stick or slip.
     [[nodiscard]] bool outranks(int j, int other) const {
         if (other == end_of_run() || j / per_contact != other / per_contact) return false;
         return j % per_contact == depth_guard || other % per_contact == clutch_guard;
-    }
-
-    [[nodiscard]] bool approaches(const S& theta, int i) const {
-        return system_.kinematics(system_.motion(method_.at(theta)), i).depth_rate > S(0);
     }
 
     [[nodiscard]] S guard_at(const S& theta, int j) {
@@ -376,12 +374,9 @@ private:
         for (int j = 0; j < guards_.size(); ++j) {
             if (!armed_[index(j)] || !(guards_[j] < S(0)) || silent(j)) continue;
             const int i = j / per_contact;
-            if (!system_.touches(i)) {
-                const Kinematics k = system_.kinematics(system_.motion(y_), i);
-                if (!(k.depth_rate > S(0))) {
-                    armed_[index(j)] = false;
-                    continue;
-                }
+            if (!system_.touches(i) && !(depth_rate(y_, i) > S(0))) {
+                armed_[index(j)] = false;
+                continue;
             }
             handle(j);
             begin_phase();
