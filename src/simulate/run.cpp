@@ -1,14 +1,27 @@
 #include "footfall/simulate/run.hpp"
 
+#include <variant>
+
+#include "footfall/law/any_normal.hpp"
+
 namespace footfall {
 
-template <class Normal>
-Run run_under(const Simulation& simulation);  // run_<normal law>.cpp
+template <class Normal, class Friction>
+Run run_under(const Simulation& simulation);  // instantiated in run_<laws>.cpp
 
 Run run(const Simulation& simulation) {
     check(simulation);
-    return std::visit([&]<class Normal>(const Normal&) { return run_under<Normal>(simulation); },
-                      simulation.contacts.front().normal);
+    const ContactParameters& laws = simulation.contacts.front();
+    return std::visit(
+        [&]<class Friction>(const Friction&) {
+            // The paper's pair of laws has equations of motion of its own, which saves some 5 % of the time.
+            if constexpr (std::is_same_v<Friction, AzadFeatherstoneFriction<>>) {
+                if (std::holds_alternative<AzadFeatherstoneNormal<>>(laws.normal))
+                    return run_under<AzadFeatherstoneNormal<>, Friction>(simulation);
+            }
+            return run_under<AnyNormal<>, Friction>(simulation);
+        },
+        laws.friction);
 }
 
 }  // namespace footfall

@@ -2,6 +2,6 @@
 
 namespace footfall {
 
-template Run run_under<AzadFeatherstoneNormal<>>(const Simulation&);
+template Run run_under<AzadFeatherstoneNormal<>, AzadFeatherstoneFriction<>>(const Simulation&);
 
 }  // namespace footfall

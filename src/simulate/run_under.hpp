@@ -1,11 +1,13 @@
-// A run under one normal law, whatever the friction: compiled once for each normal law, in a file of its own, because
-// every pair of laws has its own inlined equations of motion.
+// A run under one friction law: compiled once for each, in a file of its own, because the equations of motion are
+// inlined into the integrator.
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
+#include "footfall/law/any_normal.hpp"
 #include "footfall/simulate/run.hpp"
 #include "footfall/simulate/simulator.hpp"
 
@@ -30,20 +32,28 @@ Run run_to_tolerance(Simulation simulation, RunOnce&& run_once) {
     return run;
 }
 
-template <class Normal>
+/// The laws of every sphere as ContactLaw wants them. `Normal` is a law, or AnyNormal.
+template <class Normal, class Friction>
+std::vector<ContactLaw<Normal, Friction>> laws_of(const Simulation& simulation) {
+    std::vector<ContactLaw<Normal, Friction>> laws;
+    for (const ContactParameters& c : simulation.contacts) {
+        const Friction& friction = std::get<Friction>(c.friction);
+        if constexpr (std::is_same_v<Normal, AnyNormal<>>) {
+            laws.push_back({std::visit([](const auto& law) { return Normal(law); }, c.normal), friction});
+        } else {
+            laws.push_back({std::get<Normal>(c.normal), friction});
+        }
+    }
+    return laws;
+}
+
+template <class Normal, class Friction>
 Run run_under(const Simulation& simulation) {
-    return std::visit(
-        [&]<class Friction>(const Friction&) {
-            using Law = ContactLaw<Normal, Friction>;
-            std::vector<Law> laws;
-            for (const ContactParameters& c : simulation.contacts)
-                laws.push_back({std::get<Normal>(c.normal), std::get<Friction>(c.friction)});
-            return run_to_tolerance(simulation, [&](const Simulation& s) {
-                return laws.size() == 1 ? Simulator<Law, 1>(s, laws).run()
-                                        : Simulator<Law, Eigen::Dynamic>(s, laws).run();
-            });
-        },
-        simulation.contacts.front().friction);
+    using Law = ContactLaw<Normal, Friction>;
+    const std::vector<Law> laws = laws_of<Normal, Friction>(simulation);
+    return run_to_tolerance(simulation, [&](const Simulation& s) {
+        return laws.size() == 1 ? Simulator<Law, 1>(s, laws).run() : Simulator<Law, Eigen::Dynamic>(s, laws).run();
+    });
 }
 
 }  // namespace footfall

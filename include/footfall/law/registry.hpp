@@ -1,4 +1,4 @@
-// Every law there is. To add one: write its file, add it here (and, for a normal law, src/simulate/run_<law>.cpp).
+// Every law there is. To add one: write its file, add it here (and, for a friction law, src/simulate/run_<law>.cpp).
 // The scenario's names, the command line's help, the schema and the typed tests all follow this list.
 #pragma once
 
@@ -14,7 +14,10 @@
 
 namespace footfall {
 
-using NormalLaw = std::variant<AzadFeatherstoneNormal<>, HuntCrossleyNormal<>, LinearNormal<>>;
+template <class S>
+using NormalLawOver = std::variant<AzadFeatherstoneNormal<S>, HuntCrossleyNormal<S>, LinearNormal<S>>;
+using NormalLaw = NormalLawOver<double>;
+
 using FrictionLaw = std::variant<NoFriction<>, AzadFeatherstoneFriction<>, LinearFriction<>>;
 
 /// The laws of one contact, with their parameters.

@@ -2,6 +2,6 @@
 
 namespace footfall {
 
-template Run run_under<HuntCrossleyNormal<>>(const Simulation&);
+template Run run_under<AnyNormal<>, LinearFriction<>>(const Simulation&);
 
 }  // namespace footfall

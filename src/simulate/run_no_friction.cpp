@@ -2,6 +2,6 @@
 
 namespace footfall {
 
-template Run run_under<LinearNormal<>>(const Simulation&);
+template Run run_under<AnyNormal<>, NoFriction<>>(const Simulation&);
 
 }  // namespace footfall
