@@ -1,8 +1,11 @@
-// The commands of the program and what they are told.
+// The commands of the program. Each lives in <name>_command.cpp with its options; main.cpp lists them all.
 #pragma once
 
-#include <filesystem>
-#include <optional>
+#include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace footfall::cli {
 
@@ -14,26 +17,13 @@ struct ExitCode {
     static constexpr int signalled = 128;  ///< plus the signal's number: 130 after Ctrl-C
 };
 
-struct RunArguments {
-    std::filesystem::path scenario;
-    std::optional<std::filesystem::path> netcdf;         ///< --output
-    std::optional<std::filesystem::path> csv_directory;  ///< --csv
-    std::optional<double> tolerance;                     ///< --tolerance, in place of the scenario's
-    bool json = false;
-    bool quiet = false;
-};
+/// What the command line asks for; returns an exit code and throws what the library throws.
+using Command = std::function<int()>;
 
-struct LawsArguments {
-    bool json = false;
-};
-
-/// Runs a scenario and reports it. Throws what the library throws.
-int run_command(const RunArguments& arguments);
-
-/// Lists every law.
-int laws_command(const LawsArguments& arguments);
-
-/// Prints the JSON Schema of a scenario.
-int schema_command();
+// Each adds its subcommand to `app` and returns it. Where the command line gives that subcommand, parsing sets
+// `command`.
+CLI::App* add_run(CLI::App& app, Command& command);
+CLI::App* add_laws(CLI::App& app, Command& command);
+CLI::App* add_schema(CLI::App& app, Command& command);
 
 }  // namespace footfall::cli

@@ -1,6 +1,8 @@
 // footfall laws: every law of the registry, for a person or as JSON.
+#include <memory>
 #include <string>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -58,10 +60,8 @@ std::string as_text(std::string_view title, std::string_view table) {
     return page;
 }
 
-}  // namespace
-
-int laws_command(const LawsArguments& arguments) {
-    if (arguments.json) {
+int list_laws(bool json) {
+    if (json) {
         print(Json{{"normal", as_json<NormalLaw>()}, {"friction", as_json<FrictionLaw>()}}.dump(2) + "\n");
         return ExitCode::success;
     }
@@ -71,6 +71,16 @@ int laws_command(const LawsArguments& arguments) {
           "deformation, V the velocity of the sphere's bottom point. A parameter is a number in the unit given here,\n"
           "or a string with a unit such as \"3.1 kN s/m^1.5\".\n");
     return ExitCode::success;
+}
+
+}  // namespace
+
+CLI::App* add_laws(CLI::App& app, Command& command) {
+    auto json = std::make_shared<bool>(false);
+    CLI::App* laws = app.add_subcommand("laws", "List every law: formula, parameters, units, source");
+    laws->add_flag("--json", *json, "Print JSON");
+    laws->final_callback([&command, json] { command = [json] { return list_laws(*json); }; });
+    return laws;
 }
 
 }  // namespace footfall::cli

@@ -1,6 +1,8 @@
-// The command line: footfall run | laws | schema.
-#include <functional>
+// The command line: footfall COMMAND ...
+#include <array>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -23,42 +25,32 @@ constexpr const char* exit_codes =
 
 void say_error(std::string_view message) { fmt::print(stderr, "footfall: {}\n", message); }
 
+// In the order of --help.
+constexpr std::array commands{add_run, add_laws, add_schema};
+
 /// The command line as data: which command, and its arguments.
 struct CommandLine {
     CLI::App app{"Compliant contact between spheres and the ground, with every joule accounted for.", "footfall"};
-    RunArguments run;
-    LawsArguments laws;
-    std::function<int()> command;
+    Command command;
 
     CommandLine() {
         app.require_subcommand(0, 1);  // none at all gets a message of our own
         app.get_formatter()->column_width(28);
         const std::string version_line = fmt::format("footfall {}", version);
         app.set_version_flag("--version", version_line, "Print the version and exit");
-
-        CLI::App* run_app = app.add_subcommand("run", "Run a scenario and report it");
-        run_app->add_option("SCENARIO", run.scenario, "The scenario, a TOML file")->required()->type_name("");
-        run_app->add_option("-o,--output", run.netcdf, "Write the run as NetCDF-4")->type_name("RUN.nc");
-        run_app->add_option("--csv", run.csv_directory, "Write samples.csv, events.csv and impacts.csv into a folder")
-            ->type_name("DIR");
-        run_app->add_option("--tolerance", run.tolerance, "Relative tolerance, in place of the scenario's")
-            ->type_name("NUMBER");
-        CLI::Option* json = run_app->add_flag("--json", run.json, "Print JSON instead of the summary");
-        run_app->add_flag("-q,--quiet", run.quiet, "Print nothing but errors")->excludes(json);
-        run_app->final_callback([this] { command = [this] { return run_command(run); }; });
-
-        CLI::App* laws_app = app.add_subcommand("laws", "List every law: formula, parameters, units, source");
-        laws_app->add_flag("--json", laws.json, "Print JSON");
-        laws_app->final_callback([this] { command = [this] { return laws_command(laws); }; });
-
-        CLI::App* schema_app = app.add_subcommand("schema", "Print the JSON Schema of a scenario, for editors");
-        schema_app->final_callback([this] { command = schema_command; });
-
-        app.footer(exit_codes);
-        for (CLI::App* subcommand : {run_app, laws_app, schema_app}) {
+        for (const auto add : commands) {
+            CLI::App* subcommand = add(app, command);
             subcommand->set_version_flag("--version", version_line, "Print the version and exit");
-            subcommand->footer(exit_codes);
+            const std::string examples = subcommand->get_footer();
+            subcommand->footer(examples.empty() ? exit_codes : examples + "\n" + exit_codes);
         }
+        app.footer(exit_codes);
+    }
+
+    [[nodiscard]] std::string names() const {
+        std::vector<std::string> all;
+        for (const CLI::App* subcommand : app.get_subcommands({})) all.push_back(subcommand->get_name());
+        return fmt::format("{}", fmt::join(all, ", "));
     }
 };
 
@@ -79,7 +71,7 @@ int parse_and_run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return refuse(error.what());
     }
-    if (!line.command) return refuse("a command is required: run, laws or schema");
+    if (!line.command) return refuse("a command is required, one of " + line.names());
     return line.command();
 }
 

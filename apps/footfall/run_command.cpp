@@ -1,4 +1,9 @@
 // footfall run: a scenario in, a summary and files out.
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "commands.hpp"
@@ -8,8 +13,18 @@
 #include "terminal.hpp"
 
 namespace footfall::cli {
+namespace {
 
-int run_command(const RunArguments& arguments) {
+struct RunArguments {
+    std::filesystem::path scenario;
+    std::optional<std::filesystem::path> netcdf;         ///< --output
+    std::optional<std::filesystem::path> csv_directory;  ///< --csv
+    std::optional<double> tolerance;                     ///< --tolerance, in place of the scenario's
+    bool json = false;
+    bool quiet = false;
+};
+
+int run_scenario(const RunArguments& arguments) {
     Scenario scenario = load_scenario(arguments.scenario);
     RunOptions& options = scenario.simulation.options;
     if (arguments.tolerance) options.tolerance = *arguments.tolerance;
@@ -58,6 +73,23 @@ int run_command(const RunArguments& arguments) {
         if (!written.empty()) print("\nWritten\n" + written);
     }
     return ExitCode::success;
+}
+
+}  // namespace
+
+CLI::App* add_run(CLI::App& app, Command& command) {
+    auto arguments = std::make_shared<RunArguments>();
+    CLI::App* run = app.add_subcommand("run", "Run a scenario and report it");
+    run->add_option("SCENARIO", arguments->scenario, "The scenario, a TOML file")->required()->type_name("");
+    run->add_option("-o,--output", arguments->netcdf, "Write the run as NetCDF-4")->type_name("RUN.nc");
+    run->add_option("--csv", arguments->csv_directory, "Write samples.csv, events.csv and impacts.csv into a folder")
+        ->type_name("DIR");
+    run->add_option("--tolerance", arguments->tolerance, "Relative tolerance, in place of the scenario's")
+        ->type_name("NUMBER");
+    CLI::Option* json = run->add_flag("--json", arguments->json, "Print JSON instead of the summary");
+    run->add_flag("-q,--quiet", arguments->quiet, "Print nothing but errors")->excludes(json);
+    run->final_callback([&command, arguments] { command = [arguments] { return run_scenario(*arguments); }; });
+    return run;
 }
 
 }  // namespace footfall::cli
