@@ -31,6 +31,7 @@ std::vector<Key> parameter_keys(bool common, bool materials) {
         key.unit = parameter.unit;
         key.plain = parameter.unit_depends;
         key.range = parameter.may_be_zero() ? not_negative : positive;
+        if (parameter.at_most_one) key.range.high = 1;
         key.description = fmt::format("{}, {}", parameter.symbol, parameter.description);
         if (parameter.may_be_zero()) key.description += fmt::format("; 0: {}", parameter.when_zero);
         key.example = example_of(parameter.unit, parameter.unit_depends);

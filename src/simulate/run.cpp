@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "footfall/law/any_normal.hpp"
+#include "footfall/law/any_rate_friction.hpp"
 
 namespace footfall {
 
@@ -19,7 +20,11 @@ Run run(const Simulation& simulation) {
                 if (std::holds_alternative<AzadFeatherstoneNormal<>>(laws.normal))
                     return run_under<AzadFeatherstoneNormal<>, Friction>(simulation);
             }
-            return run_under<AnyNormal<>, Friction>(simulation);
+            if constexpr (RateFriction<Friction>) {
+                return run_under<AnyNormal<>, AnyRateFriction<>>(simulation);
+            } else {
+                return run_under<AnyNormal<>, Friction>(simulation);
+            }
         },
         laws.friction);
 }

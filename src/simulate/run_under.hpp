@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "footfall/law/any_normal.hpp"
+#include "footfall/law/any_rate_friction.hpp"
 #include "footfall/simulate/run.hpp"
 #include "footfall/simulate/simulator.hpp"
 
@@ -32,12 +33,27 @@ Run run_to_tolerance(Simulation simulation, RunOnce&& run_once) {
     return run;
 }
 
+/// A law of the registry as `Friction`, which is that law, or AnyRateFriction.
+template <class Friction>
+Friction friction_of(const FrictionLaw& law) {
+    if constexpr (std::is_same_v<Friction, AnyRateFriction<>>) {
+        return std::visit(
+            []<class Law>(const Law& l) -> Friction {
+                if constexpr (RateFriction<Law>) return Friction(l);
+                throw std::bad_variant_access();
+            },
+            law);
+    } else {
+        return std::get<Friction>(law);
+    }
+}
+
 /// The laws of every sphere as ContactLaw wants them. `Normal` is a law, or AnyNormal.
 template <class Normal, class Friction>
 std::vector<ContactLaw<Normal, Friction>> laws_of(const Simulation& simulation) {
     std::vector<ContactLaw<Normal, Friction>> laws;
     for (const ContactParameters& c : simulation.contacts) {
-        const Friction& friction = std::get<Friction>(c.friction);
+        const Friction friction = friction_of<Friction>(c.friction);
         if constexpr (std::is_same_v<Normal, AnyNormal<>>) {
             laws.push_back({std::visit([](const auto& law) { return Normal(law); }, c.normal), friction});
         } else {
@@ -52,7 +68,12 @@ Run run_under(const Simulation& simulation) {
     using Law = ContactLaw<Normal, Friction>;
     const std::vector<Law> laws = laws_of<Normal, Friction>(simulation);
     return run_to_tolerance(simulation, [&](const Simulation& s) {
-        return laws.size() == 1 ? Simulator<Law, 1>(s, laws).run() : Simulator<Law, Eigen::Dynamic>(s, laws).run();
+        // The number of friction states is known when the program runs, so that of the spheres may be as well.
+        if constexpr (Law::has_states) {
+            return Simulator<Law, Eigen::Dynamic>(s, laws).run();
+        } else {
+            return laws.size() == 1 ? Simulator<Law, 1>(s, laws).run() : Simulator<Law, Eigen::Dynamic>(s, laws).run();
+        }
     });
 }
 

@@ -318,6 +318,12 @@ TEST(ScenarioErrors, RangesAreKept) {
     expect_problem(changed({{6, "tolerance = 1e-15"}}), 6, 13, {"must be from 1e-14 to 0.001"});
     expect_problem(changed({{6, "tolerance = 0.01"}}), 6, 13, {"must be from 1e-14 to 0.001"});
     expect_problem(changed({{20, "stiffness = 0"}}), 20, 13, {"0 N/m^1.5 is not allowed: must be > 0"});
+    const auto restitution = [](const char* value) {
+        return changed({{19, "law = 'flores'"}, {21, std::string("restitution = ") + value}});
+    };
+    EXPECT_NO_THROW((void)simulation_of(restitution("1")));
+    for (const char* value : {"1.01", "0.0", "-0.5"})
+        expect_problem(restitution(value), 21, 15, {"contact.normal.restitution", "must be > 0 and <= 1"});
     expect_problem(changed({{26, "coefficient = -0.1"}}), 26, 15, {"coefficient: -0.1 is not allowed: must be >= 0"});
     expect_problem(changed({{8, "normal = [0, 0, 0]"}}), 8, 10, {"ground.normal: a zero vector is not allowed"});
     expect_problem(changed({{8, "slope = '91 deg'"}}), 8, 9, {"ground.slope"});
@@ -331,8 +337,12 @@ TEST(ScenarioErrors, TooManySamplesAreRefused) {
 TEST(ScenarioErrors, UnknownLawNamesTheNearestAndAll) {
     expect_problem(changed({{19, "law = 'azad-feathrstone'"}}), 19, 7,
                    {"contact.normal.law: 'azad-feathrstone' is not allowed: did you mean 'azad-featherstone'?",
-                    "(one of azad-featherstone, hunt-crossley, linear)"});
-    expect_problem(changed({{23, "law = 'coulomb'"}}), 23, 7, {"(one of none, azad-featherstone, linear)"});
+                    "(one of azad-featherstone, kuwabara-kono, hunt-crossley, marhefka-orin, lankarani-nikravesh, "
+                    "flores, falcon, tsuji, hertz, linear)"});
+    expect_problem(changed({{23, "law = 'lugree'"}}), 23, 7,
+                   {"contact.friction.law: 'lugree' is not allowed: did you mean 'lugre'?",
+                    "(one of none, azad-featherstone, linear, regularized-coulomb, dahl, lugre, elasto-plastic, "
+                    "bliman-sorine, seven-parameter, reset-integrator, haessig-friedland)"});
 }
 
 TEST(ScenarioErrors, UnknownLawMakesNoErrorsOfItsParameters) {

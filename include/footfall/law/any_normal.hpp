@@ -37,6 +37,15 @@ public:
         return std::visit([&](const auto& law) { return law.stored_energy(s); }, law_);
     }
 
+    /// Tells a law whose damping depends on it how fast an impact begins [m/s]; others need not know.
+    constexpr void begin_impact(const S& speed) noexcept {
+        std::visit(
+            [&](auto& law) {
+                if constexpr (requires { law.begin_impact(speed); }) law.begin_impact(speed);
+            },
+            law_);
+    }
+
     template <class T>
     [[nodiscard]] constexpr AnyNormal<T> cast() const noexcept {
         return std::visit([](const auto& law) { return AnyNormal<T>(law.template cast<T>()); }, law_);

@@ -1,23 +1,16 @@
 // A normal law and a friction law, composed: the whole contact law of one sphere.
 #pragma once
 
-#include <cstdint>
-#include <string_view>
+#include <concepts>
+#include <span>
 
+#include "footfall/law/friction/rate_friction.hpp"
 #include "footfall/law/normal/normal_force.hpp"
+#include "footfall/law/phase.hpp"
 #include "footfall/math/scalar.hpp"
 #include "footfall/math/vector.hpp"
 
 namespace footfall {
-
-/// How one sphere touches the ground.
-enum class Phase : std::uint8_t {
-    flight,      ///< z <= 0: no contact
-    stick,       ///< z > 0, F_n > 0, the clutch holds
-    slip,        ///< z > 0, F_n > 0, the clutch slips (always, where there is no friction)
-    recovering,  ///< z > 0 but F_n = 0: the clamp (14) holds, the ground rises with the sphere
-};
-[[nodiscard]] std::string_view name_of(Phase phase) noexcept;
 
 /// What one contact does at one moment. Forces act on the body; tangential vectors are in the ground's plane.
 template <class S>
@@ -45,6 +38,8 @@ struct ContactLaw {
     static constexpr int ScalePower = Friction::ScalePower;
     /// Whether the phases stick and slip differ.
     static constexpr bool has_clutch = Friction::has_bristle;
+    /// Whether friction has states of its own in place of the bristle.
+    static constexpr bool has_states = false;
 
     Normal normal;
     Friction friction;
@@ -128,6 +123,71 @@ private:
     [[nodiscard]] Vector2<S> recovery(const Vector2<S>& u) const noexcept {
         if (!(friction.damping > S(0))) return Vector2<S>::Zero();
         return -friction.recovery_rate() * u;
+    }
+};
+
+/// A friction law with internal states (rate_friction.hpp), as AnyRateFriction is: it knows how many when the program
+/// runs.
+template <class F>
+concept HasFrictionStates = requires(const F law) {
+    { law.state_count() } -> std::convertible_to<int>;
+};
+
+/// The contact law of one sphere under a friction law with internal states.
+///
+/// It holds no state: the friction's states x belong to the caller, who integrates the rates and makes them jump.
+template <class Normal, HasFrictionStates Friction>
+struct ContactLaw<Normal, Friction> {
+    using S = typename Normal::value_type;
+    using value_type = S;
+    static constexpr int ScalePower = 0;
+    static constexpr bool has_clutch = false;
+    static constexpr bool has_states = true;
+
+    Normal normal;
+    Friction friction;
+
+    /// The phase of a new contact, or recovering where it has no load. (14)
+    [[nodiscard]] Phase first_phase(const S& s, const S& z_rate) const noexcept {
+        return normal.force(s, z_rate).total() > S(0) ? friction.first_phase() : Phase::recovering;
+    }
+
+    /// The response in a phase that is known, as a smooth function of its arguments; writes the rates of the states.
+    /// Where there is no load the states stand still. `load_rate` is dF_n/dt [N/s]; only `stiffness_change_power` needs
+    /// it.
+    [[nodiscard]] ContactResponse<S> respond(Phase phase, const S& s, const S& z_rate, const Vector2<S>& V,
+                                             FrictionStates<S> x, std::span<S> rate,
+                                             const S& load_rate = S(0)) const noexcept {
+        ContactResponse<S> r;
+        r.phase = phase;
+        if (phase == Phase::flight || phase == Phase::recovering)
+            for (S& value : rate) value = S(0);
+        if (phase == Phase::flight) return r;
+        const NormalForce<S> f = normal.force(s, z_rate);
+        r.normal_spring = normal.stored_energy(s);
+        if (phase == Phase::recovering) {
+            r.normal_damper_power = -f.elastic * z_rate;  // (14)
+            return r;
+        }
+        const S F_n = f.total();
+        r.normal_force = F_n;
+        r.normal_damper_power = f.dissipative * z_rate;  // (16)
+        const RateResponse<S> t = friction.respond(phase, V, x, rate);
+        const S stored = friction.stored(phase, x);
+        r.friction_force = F_n * t.traction;
+        r.tangential_spring = F_n * stored;
+        r.tangential_damper_power = F_n * t.damper_power;
+        r.clutch_power = F_n * (-t.traction.dot(V) - t.stored_rate - t.damper_power);
+        r.stiffness_change_power = -stored * load_rate;
+        r.bristle_rate = friction.bristle(FrictionStates<S>(rate));  // linear in the states
+        return r;
+    }
+
+    template <class T>
+    [[nodiscard]] constexpr auto cast() const noexcept {
+        auto n = normal.template cast<T>();
+        auto f = friction.template cast<T>();
+        return ContactLaw<decltype(n), decltype(f)>{n, f};
     }
 };
 

@@ -23,13 +23,18 @@ struct Parameter {
     std::optional<double> fallback = std::nullopt;  ///< value where it is left out; none: it is required
     /// The unit depends on the values of other parameters, so only a plain SI number can be given.
     bool unit_depends = false;
+    /// Values above 1 are refused, as of a coefficient of restitution.
+    bool at_most_one = false;
 
     /// Zero is a meaningful value.
     [[nodiscard]] constexpr bool may_be_zero() const noexcept { return !when_zero.empty(); }
-    /// The allowed range in words: "> 0" or ">= 0". Every parameter is finite.
-    [[nodiscard]] constexpr std::string_view range() const noexcept { return may_be_zero() ? ">= 0" : "> 0"; }
+    /// The allowed range in words: "> 0", ">= 0", "> 0 and <= 1", "from 0 to 1". Every parameter is finite.
+    [[nodiscard]] constexpr std::string_view range() const noexcept {
+        if (at_most_one) return may_be_zero() ? "from 0 to 1" : "> 0 and <= 1";
+        return may_be_zero() ? ">= 0" : "> 0";
+    }
     [[nodiscard]] bool allows(double value) const noexcept {
-        return std::isfinite(value) && (may_be_zero() ? value >= 0 : value > 0);
+        return std::isfinite(value) && (may_be_zero() ? value >= 0 : value > 0) && (!at_most_one || value <= 1);
     }
 };
 

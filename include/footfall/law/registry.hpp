@@ -1,4 +1,5 @@
-// Every law there is. To add one: write its file, add it here (and, for a friction law, src/simulate/run_<law>.cpp).
+// Every law there is. To add one: write its file, add it here (and, for a friction law with a clutch,
+// src/simulate/run_<law>.cpp).
 // The scenario's names, the command line's help, the schema and the typed tests all follow this list.
 #pragma once
 
@@ -6,19 +7,51 @@
 #include <variant>
 
 #include "footfall/law/friction/azad_featherstone.hpp"
+#include "footfall/law/friction/bliman_sorine.hpp"
+#include "footfall/law/friction/dahl.hpp"
+#include "footfall/law/friction/elasto_plastic.hpp"
+#include "footfall/law/friction/haessig_friedland.hpp"
 #include "footfall/law/friction/linear.hpp"
+#include "footfall/law/friction/lugre.hpp"
 #include "footfall/law/friction/none.hpp"
+#include "footfall/law/friction/regularized_coulomb.hpp"
+#include "footfall/law/friction/reset_integrator.hpp"
+#include "footfall/law/friction/seven_parameter.hpp"
 #include "footfall/law/normal/azad_featherstone.hpp"
+#include "footfall/law/normal/falcon.hpp"
+#include "footfall/law/normal/flores.hpp"
+#include "footfall/law/normal/hertz.hpp"
 #include "footfall/law/normal/hunt_crossley.hpp"
+#include "footfall/law/normal/kuwabara_kono.hpp"
+#include "footfall/law/normal/lankarani_nikravesh.hpp"
 #include "footfall/law/normal/linear.hpp"
+#include "footfall/law/normal/marhefka_orin.hpp"
+#include "footfall/law/normal/tsuji.hpp"
 
 namespace footfall {
 
 template <class S>
-using NormalLawOver = std::variant<AzadFeatherstoneNormal<S>, HuntCrossleyNormal<S>, LinearNormal<S>>;
+using NormalLawOver = std::variant<AzadFeatherstoneNormal<S>, KuwabaraKonoNormal<S>, HuntCrossleyNormal<S>,
+                                   MarhefkaOrinNormal<S>, LankaraniNikraveshNormal<S>, FloresNormal<S>, FalconNormal<S>,
+                                   TsujiNormal<S>, HertzNormal<S>, LinearNormal<S>>;
 using NormalLaw = NormalLawOver<double>;
 
-using FrictionLaw = std::variant<NoFriction<>, AzadFeatherstoneFriction<>, LinearFriction<>>;
+/// The friction laws with internal states (friction/rate_friction.hpp).
+template <class S>
+using RateFrictionLawOver = std::variant<RegularizedCoulombFriction<S>, DahlFriction<S>, LuGreFriction<S>,
+                                         ElastoPlasticFriction<S>, BlimanSorineFriction<S>, SevenParameterFriction<S>,
+                                         ResetIntegratorFriction<S>, HaessigFriedlandFriction<S>>;
+
+/// The friction laws with one bristle and a clutch (friction/spring_damper_clutch.hpp), and none.
+using ClutchFrictionLaw = std::variant<NoFriction<>, AzadFeatherstoneFriction<>, LinearFriction<>>;
+
+namespace detail {
+template <class... First, class... Second>
+std::variant<First..., Second...> joined(const std::variant<First...>*, const std::variant<Second...>*);
+}  // namespace detail
+
+using FrictionLaw = decltype(detail::joined(static_cast<const ClutchFrictionLaw*>(nullptr),
+                                            static_cast<const RateFrictionLawOver<double>*>(nullptr)));
 
 /// The laws of one contact, with their parameters.
 struct ContactParameters {

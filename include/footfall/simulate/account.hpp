@@ -47,15 +47,16 @@ template <class System>
     shot.body.angular_velocity = motion.angular_velocity.template cast<double>();
     const Eigen::Vector4d q = y.template segment<4>(Layout::orientation).template cast<double>().matrix();
     shot.body.orientation = Eigen::Quaterniond(q);
+    const auto contacts = system.contacts(y);
     for (int i = 0; i < system.spheres(); ++i) {
-        const auto k = system.kinematics(motion, i);
+        const auto& k = contacts[static_cast<std::size_t>(i)].kinematics;
+        const auto& r = contacts[static_cast<std::size_t>(i)].response;
         ContactSnapshot c;
         c.phase = system.phase(i);
         c.depth_rate = static_cast<double>(k.depth_rate);
         c.slip_velocity = frame.to_world(k.slip).template cast<double>();
         c.bristle = frame.to_world(system.bristle(y, i)).template cast<double>();
         if (system.touches(i)) {
-            const auto r = system.response(y, k, i);
             const auto s = y[system.layout().root_depth(i)];
             c.depth = static_cast<double>(s * s);
             c.normal_force = std::max(0.0, static_cast<double>(r.normal_force));

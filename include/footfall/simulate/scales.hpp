@@ -69,7 +69,12 @@ public:
         set(layout.time(), 1, radius_ / speed_);
         for (int i = 0; i < layout.spheres; ++i) {
             set(layout.root_depth(i), 1, std::sqrt(depth_));
-            set(layout.bristle(i), 2, std::max(bristle_seen_[static_cast<std::size_t>(i)], bristle_floor_));
+            if constexpr (System::LawType::has_states) {
+                for (int k = 0; k < layout.friction_states; ++k)
+                    set(layout.bristle(i) + k, 1, system_->law(i).friction.state_size(k));
+            } else {
+                set(layout.bristle(i), 2, std::max(bristle_seen_[static_cast<std::size_t>(i)], bristle_floor_));
+            }
             set(layout.ledger(i), Layout::ledger_per_contact, energy_);
         }
     }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "footfall/simulate/account.hpp"
@@ -57,7 +58,7 @@ public:
     [[nodiscard]] const SystemType& system() const noexcept { return system_; }
 
 private:
-    using Layout = footfall::Layout<Spheres>;
+    using Layout = typename SystemType::LayoutType;
     using Kinematics = typename SystemType::Kinematics;
     using Motion = typename SystemType::Motion;
     static constexpr int per_contact = SystemType::guards_per_contact;
@@ -119,7 +120,8 @@ private:
             if (z > touching()) {
                 const S s = std::sqrt(z);
                 y_[system_.layout().root_depth(i)] = s;
-                system_.set_phase(i, system_.law(i).phase_of(s, k.depth_rate, k.slip, system_.bristle(y_, i)));
+                begin_impact(i, k.depth_rate);
+                system_.set_phase(i, phase_at(i, s, k, system_.bristle(y_, i)));
             }
         }
         for (int i = 0; i < system_.spheres(); ++i)
@@ -141,9 +143,15 @@ private:
     [[nodiscard]] bool about_to_touch(const StateVector& y, int i) {
         const Motion m = system_.motion(y);
         const Kinematics k = system_.kinematics(m, i);
-        if (std::abs(system_.geometric_depth(m, k, i)) > touching()) return false;
-        if (k.depth_rate != S(0)) return k.depth_rate > S(0);
-        return depth_acceleration(y, i) > S(0);
+        return std::abs(system_.geometric_depth(m, k, i)) <= touching() && approaches(y, i);
+    }
+
+    // Whether sphere i moves into the ground, or stands and is about to.
+    [[nodiscard]] bool approaches(const StateVector& y, int i) {
+        const Motion m = system_.motion(y);
+        const S rate = system_.kinematics(m, i).depth_rate;
+        const S standing = S(16) * eps() * (m.velocity.norm() + m.angular_velocity.norm() * S(extent_));
+        return std::abs(rate) > standing ? rate > S(0) : depth_acceleration(y, i) > S(0);
     }
 
     // d(zdot)/dt, by a difference along the motion.
@@ -179,7 +187,10 @@ private:
     void differentiate(const Vector& y, Matrix& J) {
         using DualVector = typename DualSystem::StateVector;
         const int n = system_.layout().motion_size();
-        for (int i = 0; i < system_.spheres(); ++i) dual_system_.set_phase(i, system_.phase(i));
+        for (int i = 0; i < system_.spheres(); ++i) {
+            dual_system_.set_phase(i, system_.phase(i));
+            dual_system_.set_drags(i, system_.drags(i));
+        }
         J.resize(n, n);
         DualVector point = y.template cast<Direction>(), rate = point;
         for (int first = 0; first < n; first += directions) {
@@ -207,14 +218,15 @@ private:
         const S h = accepted_step();
         Guards end_guards = scratch_guards_;  // those of finish()
         Crossing<S> crossing = find_crossing(end_guards);
-        if (crossing && !locate(crossing, h)) {  // the shorter step did not converge: look again from nearer
+        const bool whole = !crossing;
+        StateVector y = method_.end();
+        if (crossing && !locate(crossing, h, y)) {  // the shorter step did not converge: look again from nearer
             step_ = S(0.5) * crossing.theta * h;
             return;
         }
-        const bool whole = !crossing;
-        StateVector y = method_.end();
-        const S from = y_[system_.layout().time()],
-                to = crossing.guard == end_of_run() ? end_time_ : y[system_.layout().time()];
+        const S from = y_[system_.layout().time()];
+        // An event at the end of the run is there to rounding.
+        const S to = crossing.guard == end_of_run() ? end_time_ : std::min(y[system_.layout().time()], end_time_);
         record_inside(from, to);
         y[system_.layout().time()] = to;
         tidy(y, to - from);
@@ -310,10 +322,15 @@ private:
             if (!(at_end[j] < S(0)) && !near) continue;
             prepare();
             const auto value = [&](S theta) { return guard_at(theta, j); };
-            const S theta = first_zero<S>(value, start);
+            S theta = first_zero<S>(value, start);
+            const auto lands = [&] {
+                return system_.touches(j / per_contact) || approaches(method_.at(theta), j / per_contact);
+            };
+            // Rounding has put a sphere that is leaving on the wrong side: it may land later in the step.
+            if (theta >= S(0) && !lands()) theta = first_zero<S>(value, S(0));
             if (theta < S(0)) continue;
-            if (!system_.touches(j / per_contact) && !(depth_rate(method_.at(theta), j / per_contact) > S(0))) {
-                armed_[index(j)] = false;  // rounding has put a sphere that is leaving on the wrong side
+            if (!lands()) {
+                armed_[index(j)] = false;
                 continue;
             }
             if (!first || theta < first.theta - coincidence ||
@@ -349,21 +366,26 @@ private:
         return (f(theta + d) - f(theta - d)) / (S(2) * d);
     }
 
-    // Takes the step again so that it ends on the crossing.
-    [[nodiscard]] bool locate(const Crossing<S>& crossing, const S& whole) {
+    // Takes the step again so that it ends on the crossing, and sets y to that end. The last correction, once it is so
+    // small that its square is rounding, follows the tangent.
+    [[nodiscard]] bool locate(const Crossing<S>& crossing, const S& whole, StateVector& y) {
         if (crossing.guard == end_of_run() && crossing.theta == S(1)) return true;
-        const S precise = std::max(S(64) * eps(), S(0.01) * S(options_.tolerance));
+        const S linear = std::sqrt(eps());
         S theta = crossing.theta;
         for (int attempt = 0; attempt < 6; ++attempt) {
             theta = std::clamp(theta, S(0), S(1.5));
             method_.step(theta * whole, weight_);
             method_.finish();
-            const S value = crossing.guard == end_of_run() ? end_time_ - method_.end()[system_.layout().time()]
+            y = method_.end();
+            const S value = crossing.guard == end_of_run() ? end_time_ - y[system_.layout().time()]
                                                            : scratch_guards_[crossing.guard];
-            if (!method_.end().allFinite() || (method_.implicit() && !(method_.error(weight_) < S(1e9)))) return false;
+            if (!y.allFinite() || (method_.implicit() && !(method_.error(weight_) < S(1e9)))) return false;
             if (!(crossing.slope < S(0))) return true;
             const S correction = -value / crossing.slope;
-            if (!(std::abs(correction) > precise)) return true;
+            if (!(std::abs(correction) > linear)) {
+                y += method_.end_rate() * (correction * whole);
+                return true;
+            }
             theta += correction;
         }
         return true;
@@ -374,7 +396,7 @@ private:
         for (int j = 0; j < guards_.size(); ++j) {
             if (!armed_[index(j)] || !(guards_[j] < S(0)) || silent(j)) continue;
             const int i = j / per_contact;
-            if (!system_.touches(i) && !(depth_rate(y_, i) > S(0))) {
+            if (!system_.touches(i) && !approaches(y_, i)) {
                 armed_[index(j)] = false;
                 continue;
             }
@@ -397,16 +419,29 @@ private:
                     for (int k = 0; k < system_.spheres(); ++k)
                         if (k != i && !system_.touches(k) && about_to_touch(y_, k)) together.push_back(k);
                     touch_down(together);
-                } else if (phase == Phase::recovering) {
+                    break;
+                }
+                armed_[index(guard)] = false;
+                if (system_.drags(i)) {
+                    system_.set_drags(i, false);
                     enter_contact(i);
-                    armed_[index(guard)] = false;
                 } else {
-                    enter_recovering(i);
-                    armed_[index(guard)] = false;
+                    const bool drags = has_border_motion(i);
+                    if (phase != Phase::recovering) {
+                        enter_recovering(i);
+                    } else if (!drags) {
+                        enter_contact(i);
+                    }
+                    system_.set_drags(i, drags);
                 }
                 break;
             case clutch_guard:
-                if (phase == Phase::stick) {
+                if (system_.drags(i)) {
+                    system_.set_drags(i, false);
+                    armed_[index(i * per_contact + load_guard)] = false;
+                } else if (Law::has_states) {
+                    jump(i);
+                } else if (phase == Phase::stick) {
                     system_.set_phase(i, Phase::slip);
                     enter_slip(i);
                     recorder_.event(EventKind::slip, i, snapshot(y_));
@@ -423,10 +458,27 @@ private:
         }
     }
 
-    // Where friction jumps with the phase (a viscous clutch loses its hold at F_n = 0), either phase can push the
-    // motion into the other, and the exact motion slides along the border between them. Here such a contact is left
-    // without force, and not looked at, for a moment that is short beside an impact; then it may decide again.
+    // A viscous clutch loses its hold at F_n = 0, so that friction jumps there. Whether either phase pushes the motion
+    // into the other at once: then it goes along the border between them.
+    [[nodiscard]] bool has_border_motion(int i) {
+        if constexpr (Law::has_clutch) {
+            const auto& friction = system_.law(i).friction;
+            if (!(friction.viscous > S(0)) || !(friction.damping > S(0))) return false;
+            const Phase phase = system_.phase(i);
+            system_.set_phase(i, Phase::slip);
+            const bool slip_unloads = system_.load_rate(y_, i) < S(0);
+            system_.set_phase(i, Phase::recovering);
+            const bool freedom_loads = system_.load_rate(y_, i) > S(0);
+            system_.set_phase(i, phase);
+            return slip_unloads && freedom_loads;
+        }
+        return false;
+    }
+
+    // Where the phases change without time going on, a contact is left as it is and not looked at for a moment that is
+    // short beside an impact; then it may decide again.
     [[nodiscard]] bool chatters(int guard) {
+        if (Law::has_states && guard % per_contact == clutch_guard) return false;  // bonds may snap in quick succession
         const S now = y_[system_.layout().time()];
         const S moment(1e-3 * scales_.depth() / scales_.speed());
         const int i = guard / per_contact;
@@ -435,6 +487,7 @@ private:
         stall.since = now;
         if (stall.events < longest_visit) return false;
         if (guard % per_contact == load_guard && system_.phase(i) != Phase::recovering) return false;
+        if (guard % per_contact == clutch_guard && system_.phase(i) != Phase::stick) return false;
         if (guard % per_contact == depth_guard) return false;
         silent_until_[index(guard)] = now + moment;
         armed_[index(guard)] = false;
@@ -448,33 +501,81 @@ private:
     void touch_down(const std::vector<int>& spheres) {
         const Motion m = system_.motion(y_);
         std::vector<S> depth_rate;
-        for (const int i : spheres) depth_rate.push_back(system_.kinematics(m, i).depth_rate);
+        for (const int i : spheres) {
+            depth_rate.push_back(system_.kinematics(m, i).depth_rate);
+            begin_impact(i, depth_rate.back());
+        }
         if (!(*std::max_element(depth_rate.begin(), depth_rate.end()) > S(0)))
             for (std::size_t k = 0; k < spheres.size(); ++k) depth_rate[k] = depth_acceleration(y_, spheres[k]);
         const S fastest = *std::max_element(depth_rate.begin(), depth_rate.end());
         for (std::size_t k = 0; k < spheres.size(); ++k) {
+            const int i = spheres[k];
             const S share = std::max(depth_rate[k] / fastest, eps());
-            y_[system_.layout().root_depth(spheres[k])] =
-                S(1e-2) * std::sqrt(eps() * system_.radius(spheres[k]) * share);
+            const S s = S(1e-2) * std::sqrt(eps() * system_.radius(i) * share);
+            y_[system_.layout().root_depth(i)] = s;
+            // A bristle that has not recovered is stretched as the stiffness rises from zero to what it is at s.
+            if constexpr (Law::ScalePower > 0)
+                y_[system_.layout().ledger(i) + Layout::stiffness_change] -=
+                    system_.law(i).friction.stored_energy(system_.law(i).friction.scale(s), system_.bristle(y_, i));
         }
         for (const int i : spheres) enter_contact(i);
         first_contact_step_pending_ = true;
         step_ = first_step();
     }
 
+    void begin_impact(int i, const S& depth_rate) {
+        const S speed = std::max(depth_rate, S(0));
+        system_.begin_impact(i, speed);
+        dual_system_.begin_impact(i, Direction(speed));
+    }
+
     // Stick or slip, by the force a moment later: at touchdown itself both sides of (26) may be zero.
     void enter_contact(int i) {
         const Kinematics k = system_.kinematics(system_.motion(y_), i);
-        const Law& law = system_.law(i);
         const S later = std::max(y_[system_.layout().root_depth(i)], S(1e-6 * scales_.root_depth()));
         const S dt = k.depth_rate > S(0) ? S(later * later / k.depth_rate) : S(0);
         const Vector2<S> u = system_.bristle(y_, i);
-        Phase phase = law.phase_of(later, k.depth_rate, k.slip, Vector2<S>(u + k.slip * dt));
-        if (phase == Phase::recovering) phase = Phase::slip;
+        Phase phase = phase_at(i, later, k, Vector2<S>(u + k.slip * dt));
+        if (phase == Phase::recovering) phase = without_hold(i);
         system_.set_phase(i, phase);
         recorder_.event(EventKind::touchdown, i, snapshot(y_));
         if (phase == Phase::stick) recorder_.event(EventKind::stick, i, snapshot(y_));
         if (phase == Phase::slip) enter_slip(i);
+    }
+
+    // The phase that the forces at s, or a new contact's internal states, ask for.
+    [[nodiscard]] Phase phase_at(int i, const S& s, const Kinematics& k, [[maybe_unused]] const Vector2<S>& u) const {
+        if constexpr (Law::has_states) {
+            return system_.law(i).first_phase(s, k.depth_rate);
+        } else {
+            return system_.law(i).phase_of(s, k.depth_rate, k.slip, u);
+        }
+    }
+    // The phase of a contact whose load is about to begin.
+    [[nodiscard]] Phase without_hold([[maybe_unused]] int i) const {
+        if constexpr (Law::has_states) {
+            return system_.law(i).friction.first_phase();
+        } else {
+            return Phase::slip;
+        }
+    }
+
+    // A friction law with internal states changes its phase, or its states jump. What they held goes through the
+    // clutch.
+    void jump(int i) {
+        if constexpr (Law::has_states) {
+            const auto& friction = system_.law(i).friction;
+            const Kinematics k = system_.kinematics(system_.motion(y_), i);
+            const std::span<S> x = system_.friction_states(y_, i);
+            const Phase before = system_.phase(i);
+            const S held = friction.stored(before, x);
+            const Phase after = friction.jump(before, k.slip, x);
+            const S F_n = system_.law(i).normal.force(system_.root_depth(y_, i), k.depth_rate).total();
+            y_[system_.layout().ledger(i) + Layout::clutch] += F_n * (held - friction.stored(after, x));
+            system_.set_phase(i, after);
+            if (after != before)
+                recorder_.event(after == Phase::stick ? EventKind::stick : EventKind::slip, i, snapshot(y_));
+        }
     }
 
     void enter_slip(int i) {
@@ -483,19 +584,26 @@ private:
             if (!law.friction.plastic()) return;
             const Kinematics k = system_.kinematics(system_.motion(y_), i);
             const S phi_n = law.normal.template force<Law::ScalePower>(system_.root_depth(y_, i), k.depth_rate).total();
-            y_.template segment<2>(system_.layout().bristle(i)) =
-                law.friction.enter_slip(phi_n, k.slip, system_.bristle(y_, i)).array();
+            const Vector2<S> before = system_.bristle(y_, i);
+            const Vector2<S> after = law.friction.enter_slip(phi_n, k.slip, before);
+            y_.template segment<2>(system_.layout().bristle(i)) = after.array();
+            // A bristle that was beyond the cone springs back onto it through the clutch.
+            const S scale = law.friction.scale(system_.root_depth(y_, i));
+            y_[system_.layout().ledger(i) + Layout::clutch] +=
+                law.friction.stored_energy(scale, before) - law.friction.stored_energy(scale, after);
         }
     }
 
     void enter_recovering(int i) {
         system_.set_phase(i, Phase::recovering);
         release_undamped_bristle(i);
+        forget_friction(i);
         recorder_.event(EventKind::separation, i, snapshot(y_));
     }
 
     void lift_off(int i) {
         if (system_.phase(i) != Phase::recovering) enter_recovering(i);
+        system_.set_drags(i, false);
         system_.set_phase(i, Phase::flight);
         y_[system_.layout().root_depth(i)] = S(0);
         recorder_.event(EventKind::recovered, i, snapshot(y_));
@@ -516,6 +624,12 @@ private:
                 friction.stored_energy(scale, system_.bristle(y_, i));
             y_.template segment<2>(system_.layout().bristle(i)).setZero();
         }
+    }
+
+    // The asperities have parted. Nothing is stored in them at F_n = 0.
+    void forget_friction([[maybe_unused]] int i) {
+        if constexpr (Law::has_states)
+            for (S& x : system_.friction_states(y_, i)) x = S(0);
     }
 
     void rearm() {
@@ -621,22 +735,28 @@ private:
             note_reached(method_.end(), i);
             const bool rose = rises_[index(i)];
             rises_[index(i)] = force_rises(method_.end(), method_.end_rate(), i);
-            if (rose && !rises_[index(i)])
-                note_highest(prepare, i, [&](const StateVector& y) { return normal_force(y, i); });
+            if (rose && !rises_[index(i)]) {
+                const S d(1e-4);  // of the step
+                const auto force = [&](S theta) { return normal_force(method_.at(theta), i); };
+                note_highest(prepare, i, [&](S theta) { return force(theta + d) - force(theta - d); });
+            }
             const bool sank = system_.kinematics(m0, i).depth_rate > S(0);
             const bool sinks = system_.kinematics(m1, i).depth_rate > S(0);
-            if (sank && !sinks) note_highest(prepare, i, [&](const StateVector& y) { return root_depth(y, i); });
+            if (sank && !sinks) note_highest(prepare, i, [&](S theta) { return depth_rate(method_.at(theta), i); });
         }
     }
 
+    // Notes contact i where a rate falls through zero inside the step.
     template <class Prepare, class F>
-    void note_highest(Prepare&& prepare, int i, F&& quantity) {
+    void note_highest(Prepare&& prepare, int i, F&& rate) {
         prepare();
-        std::uintmax_t iterations = 60;
-        const auto lowest =
-            boost::math::tools::brent_find_minima([&](S theta) { return -quantity(method_.at(theta)); }, S(0), S(1),
-                                                  std::numeric_limits<S>::digits / 2, iterations);
-        note_reached(method_.at(lowest.first), i);
+        const S at_start = rate(S(0)), at_end = rate(S(1));
+        if (!(at_start > S(0)) || !(at_end < S(0))) return;  // it is at an end, which is noted
+        std::uintmax_t iterations = 50;
+        const auto zero = boost::math::tools::toms748_solve(
+            rate, S(0), S(1), at_start, at_end,
+            boost::math::tools::eps_tolerance<S>(std::numeric_limits<S>::digits / 2), iterations);
+        note_reached(method_.at((zero.first + zero.second) / S(2)), i);
     }
 
     void note_reached(const StateVector& y, int i) {

@@ -85,9 +85,10 @@ struct HuntCrossleyNormal {
 private:
     [[nodiscard]] constexpr bool classical() const noexcept { return n == S(1.5) && p == S(1.5) && q == S(1); }
 
-    /// |s|^e with the sign of s: an event locator looks a little past s = 0.
+    /// |s|^e with the sign of s: an event locator looks a little past s = 0, where nothing may jump.
     static constexpr S depth_power(const S& s, const S& e) noexcept {
         using std::pow;
+        if (e == S(0)) return S(1);
         return s < S(0) ? S(-pow(S(-s), e)) : S(pow(s, e));
     }
     [[nodiscard]] constexpr S rate_power(const S& v) const noexcept {

@@ -1,0 +1,115 @@
+// The elasto-plastic law: LuGre whose bristle is purely elastic up to a break-away deflection, so that nothing creeps
+// below it.
+//
+//   udot = V - alpha(|u|) (u^.V)_+ u / u_ss(V),   u_ss = g(V) / sigma_0,   u^ = u/|u|
+//   F_f  = -F_n (sigma_0 u + sigma_1 udot + sigma_2 V)
+//   alpha = 0 for |u| <= u_ba, 1 for |u| >= u_ss, (1 + sin(pi (|u| - (u_ss + u_ba)/2) / (u_ss - u_ba)))/2 between
+//
+// States: u (2) [m]. Units: sigma_0 1/m, sigma_1 and sigma_2 s/m, mu_s and mu_k 1, v_s m/s, beta 1.
+//
+// Source: Dupont, Armstrong & Hayward 2000, Elasto-plastic friction model: contact compliance and stiction, Proc.
+// American Control Conf.; Dupont, Hayward, Armstrong & Altpeter 2002, Single state elastoplastic friction models, IEEE
+// Trans. Automatic Control 47:787. Over the load, as LuGre.
+//
+// Choices. In one direction alpha = 0 while the bristle relaxes (u V < 0), else u creeps by alpha |V| u/u_ss; in the
+// plane this is read as alpha (u^.V)_+ u/u_ss, which is the same in one direction, and continuous where V turns across
+// u. u_max = u_ss, as in the source, with LuGre's Stribeck curve g for it. u_ba = beta min(mu_s, mu_k)/sigma_0, so that
+// it stays below u_ss at every speed.
+//
+// Stored: w = (1/2) sigma_0 |u|^2. Dissipated over F_n: sigma_1 |udot|^2 in the damper; the rest, as in lugre.hpp, in
+// the clutch. What is said there of its sign and of passivity holds here.
+//
+// It cannot represent the loss of pre-sliding hysteresis below u_ba (but for sigma_1), nor a static friction that grows
+// with the time of rest.
+#pragma once
+
+#include <algorithm>
+#include <numbers>
+
+#include "footfall/law/friction/rate_friction.hpp"
+
+namespace footfall {
+
+template <class S = double>
+struct ElastoPlasticFriction {
+    using value_type = S;
+    static constexpr int states = 2;
+
+    S stiffness;               ///< sigma_0, stiffness of the bristle over the load [1/m], > 0
+    S damping;                 ///< sigma_1, damping of the bristle over the load [s/m], >= 0
+    S static_coefficient;      ///< mu_s [1], > 0
+    S kinetic_coefficient;     ///< mu_k [1], > 0
+    S stribeck_velocity;       ///< v_s [m/s], > 0
+    S viscous = S(0);          ///< sigma_2, viscous friction over the load [s/m], >= 0
+    S elastic_share = S(0.7);  ///< beta, u_ba over the deflection of steady sliding [1], > 0 and <= 1
+
+    /// g: the coefficient of friction of steady sliding, without the viscous term.
+    [[nodiscard]] S steady(const Vector2<S>& V) const noexcept {
+        return stribeck_curve(static_coefficient, kinetic_coefficient, stribeck_velocity, V);
+    }
+    /// u_ba, the deflection up to which the bristle is elastic [m].
+    [[nodiscard]] S breakaway() const noexcept {
+        return elastic_share * std::min(static_coefficient, kinetic_coefficient) / stiffness;
+    }
+
+    [[nodiscard]] RateResponse<S> respond(const Vector2<S>& V, FrictionStates<S> x, std::span<S> rate) const noexcept {
+        const Vector2<S> u = vector_at<S>(x);
+        const S length = length_of(u), outward = u.dot(V);  // |u| (u^.V)
+        const S u_ss = steady(V) / stiffness;
+        Vector2<S> u_rate = V;
+        if (length > breakaway() && outward > S(0))
+            u_rate -= u * (plastic_share(length, u_ss) * outward / (length * u_ss));
+        put_vector(rate, 0, u_rate);
+        return {-(stiffness * u + damping * u_rate + viscous * V), stiffness * u.dot(u_rate),
+                damping * u_rate.squaredNorm()};
+    }
+
+    [[nodiscard]] S stored(FrictionStates<S> x) const noexcept {
+        return S(0.5) * stiffness * vector_at<S>(x).squaredNorm();
+    }
+
+    [[nodiscard]] double state_size(int) const noexcept { return static_cast<double>(kinetic_coefficient / stiffness); }
+
+    template <class T>
+    [[nodiscard]] constexpr ElastoPlasticFriction<T> cast() const noexcept {
+        return {T(stiffness),         T(damping), T(static_coefficient), T(kinetic_coefficient),
+                T(stribeck_velocity), T(viscous), T(elastic_share)};
+    }
+
+    static constexpr LawDescription description{
+        .name = "elasto-plastic",
+        .formula =
+            "F_f = -F_n (sigma_0 u + sigma_1 udot + sigma_2 V); udot = V - alpha (u.V)_+ u / (|u| u_ss); alpha = 0 "
+            "up to |u| = beta mu/sigma_0, 1 from u_ss = g(V)/sigma_0",
+        .source = "Dupont, Armstrong & Hayward 2000; Dupont, Hayward, Armstrong & Altpeter 2002, over the load",
+        .limits = "no pre-sliding loss below the break-away deflection but for sigma_1; not passive for large sigma_1"};
+
+    static constexpr auto parameters() noexcept {
+        using Law = ElastoPlasticFriction<double>;
+        return std::array{Parameter<Law>{"stiffness", "sigma_0", "1/m", &Law::stiffness,
+                                         "stiffness of the bristle over the load", ""},
+                          Parameter<Law>{"damping", "sigma_1", "s/m", &Law::damping,
+                                         "damping of the bristle over the load", "an undamped bristle"},
+                          Parameter<Law>{"static_coefficient", "mu_s", "1", &Law::static_coefficient,
+                                         "coefficient of friction at no speed", ""},
+                          Parameter<Law>{"kinetic_coefficient", "mu_k", "1", &Law::kinetic_coefficient,
+                                         "coefficient of friction at high speed", ""},
+                          Parameter<Law>{"stribeck_velocity", "v_s", "m/s", &Law::stribeck_velocity,
+                                         "speed over which the one falls to the other", ""},
+                          Parameter<Law>{"viscous", "sigma_2", "s/m", &Law::viscous, "viscous friction over the load",
+                                         "no viscous friction", 0.0},
+                          Parameter<Law>{"elastic_share", "beta", "1", &Law::elastic_share,
+                                         "break-away deflection over that of steady sliding", "", 0.7, false, true}};
+    }
+
+private:
+    /// alpha for |u| > u_ba.
+    [[nodiscard]] S plastic_share(const S& length, const S& u_ss) const noexcept {
+        using std::sin;
+        if (!(length < u_ss)) return S(1);
+        const S u_ba = breakaway();
+        return S(0.5) + S(0.5) * sin(S(std::numbers::pi) * (length - S(0.5) * (u_ss + u_ba)) / (u_ss - u_ba));
+    }
+};
+
+}  // namespace footfall

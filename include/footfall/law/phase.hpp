@@ -1,0 +1,17 @@
+// How one sphere touches the ground.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace footfall {
+
+enum class Phase : std::uint8_t {
+    flight,      ///< z <= 0: no contact
+    stick,       ///< z > 0, F_n > 0, the clutch holds
+    slip,        ///< z > 0, F_n > 0, the clutch slips (always, where there is no clutch)
+    recovering,  ///< z > 0 but F_n = 0: the clamp (14) holds, the ground rises with the sphere
+};
+[[nodiscard]] std::string_view name_of(Phase phase) noexcept;
+
+}  // namespace footfall
