@@ -25,5 +25,10 @@ using Command = std::function<int()>;
 CLI::App* add_run(CLI::App& app, Command& command);
 CLI::App* add_laws(CLI::App& app, Command& command);
 CLI::App* add_schema(CLI::App& app, Command& command);
+CLI::App* add_drive(CLI::App& app, Command& command);
+CLI::App* add_restitution(CLI::App& app, Command& command);
+CLI::App* add_material(CLI::App& app, Command& command);
+CLI::App* add_oblique(CLI::App& app, Command& command);
+CLI::App* add_fit(CLI::App& app, Command& command);
 
 }  // namespace footfall::cli

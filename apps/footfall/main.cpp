@@ -26,7 +26,8 @@ constexpr const char* exit_codes =
 void say_error(std::string_view message) { fmt::print(stderr, "footfall: {}\n", message); }
 
 // In the order of --help.
-constexpr std::array commands{add_run, add_laws, add_schema};
+constexpr std::array commands{add_run,      add_restitution, add_oblique, add_drive,
+                              add_material, add_fit,         add_laws,    add_schema};
 
 /// The command line as data: which command, and its arguments.
 struct CommandLine {

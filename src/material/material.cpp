@@ -53,6 +53,22 @@ double tangential_stiffness(double effective_modulus, double radius) {
     return 2 * effective_modulus * std::sqrt(radius);  // (23)
 }
 
+double effective_shear_modulus(const Material& a, const Material& b) {
+    // (2 - nu) / G = 2 (1 + nu) (2 - nu) / E = 2 (2 - nu) / (1 - nu) times the (1 - nu^2) / E of (9).
+    const auto shear_compliance = [](const Material& m) {
+        return 2 * (2 - m.poisson_ratio) / (1 - m.poisson_ratio) * compliance(m);
+    };
+    const double sum = shear_compliance(a) + shear_compliance(b);
+    if (!(sum > 0)) throw InvalidInput("both materials are rigid; one Young's modulus must be finite");
+    return 1 / sum;
+}
+
+double mindlin_tangential_stiffness(double effective_shear_modulus, double radius) {
+    require_positive("effective shear modulus", effective_shear_modulus);
+    require_positive("radius", radius);
+    return 8 * effective_shear_modulus * std::sqrt(radius);  // 8 G* a, a = sqrt(r z)
+}
+
 double normal_damping(double alpha, double radius) {
     require_not_negative("alpha", alpha);
     require_positive("radius", radius);

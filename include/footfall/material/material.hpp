@@ -7,7 +7,8 @@
 //   tau = D_A / K_A = 2 pi sqrt(r) alpha / E*,   D_n = (3/2) tau K_n,   D_t = tau K_t
 //
 // tau is the A of Brilliantov et al. (1996), and the time in which a free bristle recovers.
-// Source: Azad & Featherstone 2010, (6)-(12), (20)-(24).
+// Source: Azad & Featherstone 2010, (6)-(12), (20)-(24). Their tangential stiffness is that of nu = 0; Mindlin's, for
+// any nu, stands beside it.
 #pragma once
 
 namespace footfall {
@@ -28,6 +29,15 @@ struct Material {
 
 /// K_t = 2 E* sqrt(r) = (3/2) K_n, tangential stiffness [N/m^1.5]. (20), (23)
 [[nodiscard]] double tangential_stiffness(double effective_modulus, double radius);
+
+/// G* [Pa], the shear modulus of two solids in contact: 1/G* = (2 - nu_1)/G_1 + (2 - nu_2)/G_2, G = E / (2 (1 + nu)).
+/// Mindlin & Deresiewicz 1953; Johnson 1985, Contact Mechanics, (7.43). Throws as effective_modulus does.
+[[nodiscard]] double effective_shear_modulus(const Material& a, const Material& b);
+
+/// K_t = 8 G* sqrt(r) [N/m^1.5], from G* [Pa], > 0, and r [m], > 0: the stiffness 8 G* a of a contact of radius
+/// a = sqrt(r z) that does not slide. Mindlin & Deresiewicz 1953; Johnson 1985, (7.43). It is kappa times that of (23),
+/// kappa = 4 G*/E*, which is 2 (1 - nu) / (2 - nu) for equal materials: 1 for nu = 0, 0.82 for nu = 0.3.
+[[nodiscard]] double mindlin_tangential_stiffness(double effective_shear_modulus, double radius);
 
 /// D_n = 4 pi r alpha, normal damping [N s/m^1.5], from alpha [N s/m^2.5], >= 0, and r [m], > 0. (12)
 [[nodiscard]] double normal_damping(double alpha, double radius);

@@ -1,0 +1,158 @@
+#include "footfall/io/law_text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "footfall/io/units.hpp"
+#include "io/nearest.hpp"
+
+namespace footfall {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+    const auto first = text.find_first_not_of(" \t");
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// One "key=value" as it was written.
+struct Setting {
+    std::string_view key, value;
+};
+
+/// "azad-featherstone", {{"stiffness", "8.5e6"}, ...}
+struct Parts {
+    std::string_view name;
+    std::vector<Setting> settings;
+};
+
+Parts split(std::string_view text, std::string_view kind) {
+    const std::size_t colon = text.find(':');
+    Parts parts{trimmed(text.substr(0, colon)), {}};
+    if (colon == std::string_view::npos) return parts;
+    for (std::string_view rest = text.substr(colon + 1);;) {
+        const std::size_t comma = rest.find(',');
+        const std::string_view setting = trimmed(rest.substr(0, comma));
+        const std::size_t equals = setting.find('=');
+        if (equals == std::string_view::npos) {
+            throw InvalidInput(fmt::format("{} law '{}': expected key=value, got '{}'", kind, text, setting));
+        }
+        parts.settings.push_back({trimmed(setting.substr(0, equals)), trimmed(setting.substr(equals + 1))});
+        if (comma == std::string_view::npos) return parts;
+        rest.remove_prefix(comma + 1);
+    }
+}
+
+/// ": did you mean 'WORD'?" or the end of the sentence.
+std::string suggestion(std::string_view word, const std::vector<std::string>& words) {
+    const std::string meant = io::did_you_mean(word, words);
+    return meant.empty() ? "." : meant;
+}
+
+/// `text` as a number and nothing else.
+std::optional<double> plain_number(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+template <class Law>
+double read_value(const Parameter<Law>& parameter, std::string_view text) {
+    const std::optional<double> plain = plain_number(text);
+    if (!plain && parameter.unit_depends) {
+        throw InvalidInput(
+            fmt::format("expected a plain number (its unit depends on other parameters), got '{}'", text));
+    }
+    const double value = plain ? *plain : to_si(text, parameter.unit);
+    if (!parameter.allows(value)) {
+        const std::string unit = parameter.unit == "1" ? "" : fmt::format(" {}", parameter.unit);
+        throw InvalidInput(fmt::format("is {}{}; allowed is {}, finite", value, unit, parameter.range()));
+    }
+    return value;
+}
+
+template <class Law>
+Law read_law(const Parts& parts, std::string_view kind) {
+    const auto parameters = Law::parameters();
+    const std::string who = fmt::format("{} law '{}'", kind, Law::description.name);
+    std::vector<std::string> keys, given;
+    for (const auto& parameter : parameters) keys.emplace_back(parameter.key);
+
+    Law law{};
+    for (const auto& parameter : parameters) {
+        if (parameter.fallback) law.*parameter.member = *parameter.fallback;
+    }
+    for (const auto& [key, text] : parts.settings) {
+        const auto* parameter = std::find_if(parameters.begin(), parameters.end(),
+                                             [key = key](const auto& candidate) { return candidate.key == key; });
+        if (parameter == parameters.end()) {
+            throw InvalidInput(fmt::format("{}: unknown parameter '{}'{} It has {}", who, key, suggestion(key, keys),
+                                           keys.empty() ? "no parameters" : io::listed(keys)));
+        }
+        if (std::find(given.begin(), given.end(), key) != given.end()) {
+            throw InvalidInput(fmt::format("{}: '{}' is given twice", who, key));
+        }
+        given.emplace_back(key);
+        try {
+            law.*parameter->member = read_value(*parameter, text);
+        } catch (const InvalidInput& error) {
+            throw InvalidInput(fmt::format("{}: {} ({}, {}): {}", who, parameter->key, parameter->symbol,
+                                           parameter->description, error.what()));
+        }
+    }
+    for (const auto& parameter : parameters) {
+        if (parameter.fallback || std::find(given.begin(), given.end(), parameter.key) != given.end()) continue;
+        const std::string unit = parameter.unit == "1" ? "" : fmt::format(", in {}", parameter.unit);
+        throw InvalidInput(fmt::format("{}: {} ({}, {}) is missing: add {}=NUMBER{}", who, parameter.key,
+                                       parameter.symbol, parameter.description, parameter.key, unit));
+    }
+    return law;
+}
+
+template <class Variant>
+Variant parse(std::string_view text, std::string_view kind) {
+    const Parts parts = split(text, kind);
+    std::vector<std::string> names;
+    std::optional<Variant> found;
+    for_each_law<Variant>([&]<class Law>(const Law&) {
+        names.emplace_back(Law::description.name);
+        if (parts.name == Law::description.name) found = read_law<Law>(parts, kind);
+    });
+    if (!found) {
+        throw InvalidInput(fmt::format("unknown {} law '{}'{} There are {}", kind, parts.name,
+                                       suggestion(parts.name, names), io::listed(names)));
+    }
+    return *found;
+}
+
+template <class Variant>
+std::string write(const Variant& any) {
+    return std::visit(
+        []<class Law>(const Law& law) {
+            std::string text(Law::description.name);
+            char separator = ':';
+            for (const auto& parameter : Law::parameters()) {
+                text += fmt::format("{}{}={}", std::exchange(separator, ','), parameter.key, law.*parameter.member);
+            }
+            return text;
+        },
+        any);
+}
+
+}  // namespace
+
+NormalLaw parse_normal_law(std::string_view text) { return parse<NormalLaw>(text, "normal"); }
+FrictionLaw parse_friction_law(std::string_view text) { return parse<FrictionLaw>(text, "friction"); }
+
+std::string law_text(const NormalLaw& law) { return write(law); }
+std::string law_text(const FrictionLaw& law) { return write(law); }
+
+}  // namespace footfall

@@ -1,0 +1,80 @@
+#include "footfall/material/presets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "footfall/math/error.hpp"
+
+namespace footfall {
+namespace {
+
+// Callister 2007, Materials Science and Engineering: An Introduction, 7th edition, Wiley, appendix B.
+constexpr std::string_view callister_E = "Callister 2007, table B.2";
+constexpr std::string_view callister_nu = "Callister 2007, table B.3";
+constexpr std::string_view callister_rho = "Callister 2007, table B.1";
+constexpr std::string_view cork = "Gibson, Easterling & Ashby 1981, Proc. R. Soc. Lond. A 377, 99";
+constexpr std::string_view incompressible = "incompressible: Treloar 1975, The Physics of Rubber Elasticity, chapter 4";
+constexpr double GPa = 1e9, MPa = 1e6;
+
+constexpr std::array presets{
+    MaterialPreset{"aluminium", "alloy 1100", {69 * GPa, 0.33}, 2710, callister_E, callister_nu, callister_rho},
+    MaterialPreset{"aluminium-oxide", "99.9 % pure", {380 * GPa, 0.22}, 3980, callister_E, callister_nu, callister_rho},
+    MaterialPreset{
+        "brass", "cartridge brass, C26000", {110 * GPa, 0.35}, 8530, callister_E, callister_nu, callister_rho},
+    MaterialPreset{"cast-iron",
+                   "grey, grade G3000",
+                   {101.5 * GPa, 0.26},
+                   7300,
+                   "Callister 2007, table B.2, the middle of 90 to 113 GPa",
+                   callister_nu,
+                   callister_rho},
+    MaterialPreset{"cork",
+                   "natural, pressed along the radius of the tree",
+                   {20 * MPa, 0.05},
+                   170,
+                   cork,
+                   "Gibson, Easterling & Ashby 1981, Proc. R. Soc. Lond. A 377, 99, the middle of 0 to 0.10",
+                   cork},
+    MaterialPreset{"glass", "soda-lime", {69 * GPa, 0.23}, 2500, callister_E, callister_nu, callister_rho},
+    MaterialPreset{"lead", "chemical lead", {13.5 * GPa, 0.44}, 11340, callister_E, callister_nu, callister_rho},
+    MaterialPreset{"nylon",
+                   "nylon 6,6",
+                   {2.69 * GPa, 0.39},
+                   1140,
+                   "Callister 2007, table B.2, the middle of 1.59 to 3.79 GPa",
+                   callister_nu,
+                   callister_rho},
+    MaterialPreset{"polyethylene",
+                   "high density",
+                   {1.08 * GPa, 0.42},
+                   959,
+                   callister_E,
+                   "Ashby 2005, Materials Selection in Mechanical Design, 3rd edition, the middle of 0.41 to 0.43",
+                   callister_rho},
+    MaterialPreset{"rubber",
+                   "styrene-butadiene",
+                   {6 * MPa, 0.5},
+                   940,
+                   "Callister 2007, table B.2, the middle of 2 to 10 MPa (secant, at 100 % elongation)",
+                   incompressible,
+                   callister_rho},
+    MaterialPreset{
+        "steel", "plain carbon, AISI 1020", {207 * GPa, 0.30}, 7850, callister_E, callister_nu, callister_rho},
+};
+
+}  // namespace
+
+std::span<const MaterialPreset> material_presets() noexcept { return presets; }
+
+const MaterialPreset& material_preset(std::string_view name) {
+    const auto found = std::find_if(presets.begin(), presets.end(), [&](const auto& p) { return p.name == name; });
+    if (found != presets.end()) return *found;
+    std::string names;
+    for (const MaterialPreset& preset : presets) names += fmt::format("{}{}", names.empty() ? "" : ", ", preset.name);
+    throw InvalidInput(fmt::format("unknown material '{}'. There are {}", name, names));
+}
+
+}  // namespace footfall
