@@ -1,0 +1,380 @@
+// footfall oblique: a sphere that hits the ground at an angle, swept over the angle or the spin.
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.hpp"
+#include "footfall/body/body.hpp"
+#include "footfall/io/law_text.hpp"
+#include "footfall/io/table_output.hpp"
+#include "footfall/io/units.hpp"
+#include "footfall/study/damping.hpp"
+#include "footfall/study/oblique.hpp"
+#include "quantity.hpp"
+#include "terminal.hpp"
+
+namespace footfall::cli {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+struct ObliqueArguments {
+    std::string radius, mass, density, inertia = "solid";
+    std::string speed, normal_speed;
+    std::string angles = "0..85:5", spins = "0";
+    std::string normal, friction;
+    std::string gravity = "0";
+    std::optional<double> restitution, poisson_ratio;
+    double tolerance = ObliqueSphere{}.tolerance;
+    std::optional<std::filesystem::path> csv, history;
+    std::filesystem::path data;     ///< --fit
+    std::vector<std::string> vary;  ///< --vary
+    bool json = false;
+};
+
+/// An angle in degrees, or with its unit [rad].
+double angle(std::string_view option, std::string_view text) {
+    const double value = quantity(option, text, "rad");
+    return parse_quantity(text).dimension == Dimension{} ? value * degree : value;
+}
+
+double spin(std::string_view option, std::string_view text) { return quantity(option, text, "rad/s"); }
+
+/// "A,B,C" or "START..END:STEP", each read by `value`.
+std::vector<double> read_list(std::string_view option, std::string_view text,
+                              double (*value)(std::string_view, std::string_view)) {
+    std::vector<double> list;
+    const std::size_t dots = text.find("..");
+    if (dots == std::string_view::npos) {
+        for (;;) {
+            const std::size_t comma = text.find(',');
+            list.push_back(value(option, text.substr(0, comma)));
+            if (comma == std::string_view::npos) return list;
+            text.remove_prefix(comma + 1);
+        }
+    }
+    const std::size_t colon = text.find(':', dots);
+    if (colon == std::string_view::npos)
+        throw InvalidInput(fmt::format("{}: '{}' has no step; write START..END:STEP", option, text));
+    const double start = value(option, text.substr(0, dots));
+    const double end = value(option, text.substr(dots + 2, colon - dots - 2));
+    const double step = value(option, text.substr(colon + 1));
+    constexpr double most = 1e6;
+    const double steps = std::floor((end - start) / step + 1e-9);  // END counts although 0.1 is not exact
+    if (!(steps >= 0 && steps < most))
+        throw InvalidInput(
+            fmt::format("{}: '{}' must lead from START to END in fewer than {} steps", option, text, most));
+    for (int i = 0; i <= static_cast<int>(steps); ++i) list.push_back(start + i * step);
+    return list;
+}
+
+double speed_of(const ObliqueArguments& arguments) {
+    return arguments.speed.empty() ? quantity("--normal-speed", arguments.normal_speed, "m/s")
+                                   : quantity("--speed", arguments.speed, "m/s");
+}
+
+ObliqueSphere sphere_of(const ObliqueArguments& arguments) {
+    if (arguments.mass.empty() && arguments.density.empty()) throw InvalidInput("give --mass or --density");
+    if (arguments.speed.empty() && arguments.normal_speed.empty()) throw InvalidInput("give --speed or --normal-speed");
+    ObliqueSphere sphere;
+    const double r = sphere.radius = quantity("--radius", arguments.radius, "m");
+    sphere.mass = arguments.density.empty()
+                      ? quantity("--mass", arguments.mass, "kg")
+                      : quantity("--density", arguments.density, "kg/m^3") * 4 / 3 * std::numbers::pi * r * r * r;
+    if (arguments.inertia == "hollow") {
+        sphere.inertia = hollow_sphere_inertia(sphere.mass, r)(0, 0);
+    } else if (arguments.inertia != "solid") {
+        sphere.inertia = quantity("--inertia", arguments.inertia, "kg m^2");
+    }
+    sphere.contact = {parse_normal_law(arguments.normal), parse_friction_law(arguments.friction)};
+    if (arguments.restitution) {
+        sphere.contact.normal =
+            with_restitution(sphere.contact.normal, sphere.mass, speed_of(arguments), *arguments.restitution);
+    }
+    sphere.gravity = quantity("--gravity", arguments.gravity, "m/s^2");
+    sphere.tolerance = arguments.tolerance;
+    return sphere;
+}
+
+Approach approach_of(const ObliqueArguments& arguments, double theta, double omega) {
+    const double speed = speed_of(arguments);
+    return arguments.speed.empty() ? approach_at_normal_speed(speed, theta, omega)
+                                   : approach_at_speed(speed, theta, omega);
+}
+
+std::vector<Approach> approaches_of(const ObliqueArguments& arguments) {
+    std::vector<Approach> approaches;
+    const std::vector<double> angles = read_list("--angles", arguments.angles, angle);
+    for (const double omega : read_list("--spins", arguments.spins, spin)) {
+        for (const double theta : angles) approaches.push_back(approach_of(arguments, theta, omega));
+    }
+    return approaches;
+}
+
+std::string as_json(const ObliqueSphere& sphere, const std::vector<ObliqueImpact>& impacts, const Table& table) {
+    using Json = nlohmann::ordered_json;
+    Json json = Json::parse(to_json(table));
+    json["normal"] = law_text(sphere.contact.normal);
+    json["friction"] = law_text(sphere.contact.friction);
+    Json& histories = json["history"] = Json::array();
+    for (const ObliqueImpact& impact : impacts) {
+        Json history = Json::array();
+        for (const ObliquePhase& part : impact.history) {
+            history.push_back({{"phase", name_of(part.phase)}, {"start", part.start}, {"duration", part.duration}});
+        }
+        histories.push_back(std::move(history));
+    }
+    return json.dump(2);
+}
+
+/// What most people come for; everything is in CSV and JSON.
+Table main_columns(const Table& table) {
+    Table chosen{table.title, {}};
+    for (const std::string_view name :
+         {"angle", "spin", "normal_restitution", "tangential_restitution", "contact_restitution", "rebound_angle",
+          "contact_rebound_angle", "spin_after", "impulse_ratio", "psi1", "psi2", "psi1_maw", "psi2_maw"}) {
+        for (const Column& column : table.columns) {
+            if (column.name == name) chosen.columns.push_back(column);
+        }
+    }
+    return chosen;
+}
+
+/// The phases of each impact in one line.
+std::string history_text(const std::vector<ObliqueImpact>& impacts) {
+    double longest = 0;
+    for (const ObliqueImpact& impact : impacts)
+        for (const ObliquePhase& part : impact.history) longest = std::max(longest, part.duration);
+    double scale = 1;
+    std::string_view unit = "s";
+    for (const auto& [factor, name] : {std::pair{1e3, "ms"}, {1e6, "us"}, {1e9, "ns"}}) {
+        if (longest * scale >= 1) break;
+        scale = factor;
+        unit = name;
+    }
+    std::string page = fmt::format("\nStick and slip, durations in {}\n\n", unit);
+    constexpr std::size_t most = 60;
+    for (std::size_t i = 0; i < impacts.size() && i < most; ++i) {
+        const Approach& in = impacts[i].in;
+        page += fmt::format("  {:>7.4g} deg {:>9.6g} rad/s ",
+                            std::atan2(in.tangential_velocity, in.normal_speed) / degree, in.spin);
+        for (const ObliquePhase& part : impacts[i].history) {
+            page += fmt::format("  {} {:.4g}", name_of(part.phase), part.duration * scale);
+        }
+        page += '\n';
+    }
+    if (impacts.size() > most) page += fmt::format("  ... {} more\n", impacts.size() - most);
+    return page;
+}
+
+int sweep(const ObliqueArguments& arguments) {
+    const ObliqueSphere sphere = sphere_of(arguments);
+    std::vector<ObliqueImpact> impacts;
+    for (const Approach& approach : approaches_of(arguments)) impacts.push_back(oblique_impact(sphere, approach));
+    const Table table = oblique_table(impacts, friction_coefficient(sphere.contact.friction), arguments.poisson_ratio);
+    if (arguments.csv) write_csv(*arguments.csv, table);
+    if (arguments.history) write_csv(*arguments.history, oblique_history(impacts));
+    if (arguments.json) {
+        print(as_json(sphere, impacts, table) + "\n");
+    } else {
+        print(to_text(main_columns(table)) + history_text(impacts));
+    }
+    return ExitCode::success;
+}
+
+// Fitting -------------------------------------------------------------------------------------------------------------
+
+std::vector<std::string> cells_of(const std::string& line) {
+    std::vector<std::string> cells;
+    for (std::size_t begin = 0;;) {
+        const std::size_t comma = line.find(',', begin);
+        std::string cell = line.substr(begin, comma - begin);
+        cell.erase(0, cell.find_first_not_of(" \t\r"));
+        cell.erase(cell.find_last_not_of(" \t\r") + 1);
+        cells.push_back(std::move(cell));
+        if (comma == std::string::npos) return cells;
+        begin = comma + 1;
+    }
+}
+
+/// Reads a measured curve: lines of "#" are comments, the first other line names the columns: `angle` (degrees), `spin`
+/// (rad/s) or both, and one observable.
+ObliqueMeasurement read_measurement(const ObliqueArguments& arguments) {
+    const std::string file = arguments.data.string();
+    std::ifstream stream(arguments.data);
+    if (!stream) throw std::system_error(errno, std::generic_category(), "cannot read " + file);
+    const auto wrong = [&file](int line, const std::string& what) {
+        return InvalidInput(fmt::format("{}:{}: {}", file, line, what));
+    };
+    ObliqueMeasurement measured;
+    std::vector<std::string> head;
+    std::string line;
+    for (int number = 1; std::getline(stream, line); ++number) {
+        if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
+        const std::vector<std::string> cells = cells_of(line);
+        if (head.empty()) {
+            head = cells;
+            for (const std::string& name : head) {
+                if (name == "angle" || name == "spin") continue;
+                if (!measured.observable.empty())
+                    throw wrong(number, fmt::format("there are two observables, '{}' and '{}'; give one, beside angle, "
+                                                    "spin or both",
+                                                    measured.observable, name));
+                measured.observable = name;
+            }
+            if (measured.observable.empty() || head.size() < 2)
+                throw wrong(number, "expected a line of names: angle, spin or both, and one observable");
+            continue;
+        }
+        if (cells.size() != head.size())
+            throw wrong(number, fmt::format("{} values for {} columns", cells.size(), head.size()));
+        double theta = 0, omega = 0;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            double value = 0;
+            try {
+                value = to_si(cells[i], "1");
+            } catch (const InvalidInput& error) {
+                throw wrong(number, fmt::format("{}: {}", head[i], error.what()));
+            }
+            if (head[i] == "angle") {
+                theta = value * degree;
+            } else if (head[i] == "spin") {
+                omega = value;
+            } else {
+                measured.values.push_back(value);
+            }
+        }
+        try {
+            measured.approaches.push_back(approach_of(arguments, theta, omega));
+        } catch (const InvalidInput& error) {
+            throw wrong(number, error.what());
+        }
+    }
+    if (measured.values.empty()) throw InvalidInput(file + ": there are no measurements in it");
+    return measured;
+}
+
+std::string fit_json(const ObliqueFit& fit, const ObliqueMeasurement& measured) {
+    using Json = nlohmann::ordered_json;
+    Json estimates = Json::array();
+    for (const FitEstimate& e : fit.result.estimates) {
+        estimates.push_back({{"name", e.name},
+                             {"unit", e.unit},
+                             {"value", e.value},
+                             {"standard_error", e.standard_error ? Json(*e.standard_error) : Json(nullptr)},
+                             {"interval", e.interval ? Json{e.interval->low, e.interval->high} : Json(nullptr)}});
+    }
+    return Json{{"observable", measured.observable},
+                {"unit", fit.unit},
+                {"estimates", std::move(estimates)},
+                {"correlation", fit.result.correlation},
+                {"rms", fit.result.rms},
+                {"aicc", fit.result.aicc},
+                {"warnings", fit.result.warnings},
+                {"normal", law_text(fit.contact.normal)},
+                {"friction", law_text(fit.contact.friction)},
+                {"measured", measured.values},
+                {"model", fit.model}}
+        .dump(2);
+}
+
+std::string fit_text(const ObliqueFit& fit, const ObliqueMeasurement& measured) {
+    std::string page = fmt::format("{} measurements of {}, misfit {:.4g} (root mean square)\n\n",
+                                   measured.values.size(), measured.observable, fit.result.rms);
+    for (const FitEstimate& e : fit.result.estimates) {
+        page += fmt::format("  {:<24} {:.6g}", e.name, e.value);
+        if (e.standard_error) page += fmt::format(" +- {:.2g}", *e.standard_error);
+        if (e.unit != "1") page += fmt::format(" {}", e.unit);
+        if (e.interval) page += fmt::format("   95 % from {:.5g} to {:.5g}", e.interval->low, e.interval->high);
+        page += '\n';
+    }
+    for (const FitCombination& c : fit.result.combinations)
+        page += fmt::format("  determined: {} = {:.6g} +- {:.2g}\n", c.text, c.value, c.standard_error);
+    for (const std::string& warning : fit.result.warnings) page += fmt::format("\n{}\n", warning);
+    return page + fmt::format("\n  --normal {}\n  --friction {}\n", law_text(fit.contact.normal),
+                              law_text(fit.contact.friction));
+}
+
+int fit(const ObliqueArguments& arguments) {
+    if (arguments.vary.empty())
+        throw InvalidInput("--fit needs --vary KEYS, such as friction.coefficient,friction.stiffness");
+    const ObliqueSphere sphere = sphere_of(arguments);
+    const ObliqueMeasurement measured = read_measurement(arguments);
+    const ObliqueFit result = fit_oblique(sphere, measured, arguments.vary);
+    if (arguments.csv) {
+        write_csv(*arguments.csv, Table{"Measured and fitted",
+                                        {{"measured", result.unit, measured.observable, measured.values},
+                                         {"model", result.unit, measured.observable, result.model}}});
+    }
+    print(arguments.json ? fit_json(result, measured) + "\n" : fit_text(result, measured));
+    return ExitCode::success;
+}
+
+}  // namespace
+
+CLI::App* add_oblique(CLI::App& app, Command& command) {
+    auto arguments = std::make_shared<ObliqueArguments>();
+    ObliqueArguments& a = *arguments;
+    CLI::App* oblique_app =
+        app.add_subcommand("oblique", "A sphere that hits at an angle: rebound, spin, stick and slip");
+    const auto option = [&](const char* name, std::string& value, const char* help, const char* type) {
+        return oblique_app->add_option(name, value, help)->type_name(type);
+    };
+    option("--radius", a.radius, "Radius of the sphere", "LENGTH")->required();
+    CLI::Option* mass = option("--mass", a.mass, "Mass of the sphere", "MASS");
+    option("--density", a.density, "In place of the mass: that of a solid sphere", "DENSITY")->excludes(mass);
+    option("--inertia", a.inertia, "About the centre: solid, hollow, or a number in kg m^2; by default solid", "KIND");
+    CLI::Option* speed = option("--speed", a.speed, "Speed of the centre, the same at every angle", "SPEED");
+    option("--normal-speed", a.normal_speed, "In place of the speed: its part towards the ground", "SPEED")
+        ->excludes(speed);
+    option("--angles", a.angles, "Angles of incidence from the normal, in degrees; by default 0..85:5", "LIST");
+    option("--spins", a.spins, "Spins, rad/s, > 0 top spin; by default 0", "LIST");
+    option("--normal", a.normal, "Normal law, NAME:key=value,...; see footfall laws", "LAW")->required();
+    option("--friction", a.friction, "Friction law, likewise", "LAW")->required();
+    oblique_app
+        ->add_option("--restitution", a.restitution,
+                     "Of a straight impact at the given speed: sets the normal law's damping")
+        ->type_name("NUMBER");
+    oblique_app
+        ->add_option("--poisson", a.poisson_ratio, "Poisson's ratio: adds psi_1 and psi_2 of Maw, Barber & Fawcett")
+        ->type_name("NU");
+    option("--gravity", a.gravity, "Towards the ground, m/s^2; by default 0", "NUMBER");
+    oblique_app->add_option("--tolerance", a.tolerance, "Relative tolerance, by default 1e-10")->type_name("NUMBER");
+    oblique_app->add_option("--csv", a.csv, "Write the table")->type_name("FILE");
+    oblique_app->add_option("--history", a.history, "Write every phase of every impact")->type_name("FILE");
+    CLI::Option* data =
+        oblique_app
+            ->add_option("--fit", a.data, "Fit to a CSV file: angle, spin or both, and a measured column of --csv")
+            ->type_name("FILE");
+    oblique_app->add_option("--vary", a.vary, "What is fitted: friction.coefficient,friction.stiffness")
+        ->delimiter(',')
+        ->needs(data)
+        ->type_name("KEYS");
+    oblique_app->add_flag("--json", a.json, "Print JSON instead of the table");
+    oblique_app->footer(
+        "A LIST is A,B,C or START..END:STEP. Quantities are in SI units or carry their own: 2.5mm.\n"
+        "Example:\n"
+        "  footfall oblique --radius 2.5mm --density 4000 --speed 3.9 --angles 5..85:5 \\\n"
+        "    --normal azad-featherstone:stiffness=2.675e10,damping=700 \\\n"
+        "    --friction azad-featherstone:stiffness=4.01e10,damping=700,coefficient=0.092\n");
+    oblique_app->final_callback([&command, arguments] {
+        command = [arguments] { return arguments->data.empty() ? sweep(*arguments) : fit(*arguments); };
+    });
+    return oblique_app;
+}
+
+}  // namespace footfall::cli

@@ -1,0 +1,204 @@
+// One impact along the normal without gravity, over any scalar: with dual numbers, its derivatives with respect to the
+// law's parameters, the mass and the speed come out of the same integration.
+//
+//   ds/dsigma = w/2,   dw/dsigma = -s F(s, w)/m,   dt/dsigma = s         s = sqrt(z), w = zdot
+//
+// which is regular at touchdown (docs/theory.md, "The onset of contact"). Contact ends where the force does (14).
+//
+// Steps are chosen by the values alone; the derivatives then have an error of the same order as the values, times how
+// fast they grow. The end of contact moves with the parameters too, but the speed there does not notice to first order:
+// the force is zero.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include "footfall/law/any_normal.hpp"
+#include "footfall/math/dual.hpp"
+#include "footfall/simulate/dormand_prince_853.hpp"
+
+namespace footfall::study {
+
+inline double value_of(double x) noexcept { return x; }
+template <class T, int N>
+double value_of(const Dual<T, N>& x) noexcept {
+    return x.value;
+}
+
+/// Where a function that is `true` at `low` and `false` at `high` turns, to rounding.
+template <class Predicate>
+double turning_point(double low, double high, const Predicate& holds) {
+    for (int i = 0; i < 100; ++i) {
+        const double middle = (low + high) / 2;
+        if (!(middle > low && middle < high)) break;
+        (holds(middle) ? low : high) = middle;
+    }
+    return low;
+}
+
+/// A place in a sample of which the force is wanted.
+enum class Branch { loading, unloading };
+
+/// An impact, computed as it is asked for.
+template <class S>
+class ImpactTrace {
+public:
+    /// A law with its parameters over S, mass [kg] and speed into the ground [m/s], both > 0.
+    ImpactTrace(const AnyNormal<S>& law, const S& mass, const S& speed, double tolerance = 1e-11)
+        : law_(law), mass_(mass), speed_(speed), tolerance_(tolerance) {
+        law_.begin_impact(speed);
+    }
+
+    /// -zdot where contact ends [m/s]; empty where it takes too many steps to get there.
+    [[nodiscard]] std::optional<S> speed_out() const {
+        return follow([](const Stepper&, double, double) {}, false);
+    }
+
+    /// The force [N] at times since touchdown [s], in order; before touchdown and after the end it is 0. False where
+    /// the impact takes too many steps.
+    [[nodiscard]] bool force_at_times(std::span<const S> times, std::span<S> forces) const {
+        std::fill(forces.begin(), forces.end(), S(0));
+        std::size_t next = 0;
+        while (next < times.size() && value_of(times[next]) < 0) ++next;
+        const auto visit = [&](const Stepper& step, double h, double end) {
+            const double last = value_of(step.at(S(end), time));
+            for (; next < times.size() && value_of(times[next]) <= last; ++next) {
+                forces[next] = force_at(step, solve(step, h, 0, end, time, times[next]));
+            }
+        };
+        return follow(visit, true).has_value();
+    }
+
+    /// The force [N] at indentations [m], on the way in or out. Deeper than the impact goes, it is the elastic force,
+    /// which the others meet at the deepest point. False where the impact takes too many steps.
+    [[nodiscard]] bool force_at_depths(std::span<const double> depths, std::span<const Branch> branches,
+                                       std::span<S> forces) const {
+        for (std::size_t i = 0; i < depths.size(); ++i) {
+            forces[i] = clamped(law_.template force<0>(S(std::sqrt(depths[i])), S(0)).total());
+        }
+        const auto fill = [&](const Stepper& step, double h, double from, double to, Branch branch) {
+            const double a = value_of(step.at(S(from), root)), b = value_of(step.at(S(to), root));
+            for (std::size_t i = 0; i < depths.size(); ++i) {
+                const double s = std::sqrt(depths[i]);
+                if (branches[i] != branch || s < std::min(a, b) || s > std::max(a, b)) continue;
+                forces[i] = force_at(step, solve(step, h, from, to, root, S(s)));
+            }
+        };
+        double separation = 0;
+        const auto visit = [&](const Stepper& step, double h, double end) {
+            const auto sinks = [&](double theta) { return value_of(step.at(S(theta), rate)) > 0; };
+            const double deepest = !sinks(0) ? 0 : sinks(end) ? end : turning_point(0, end, sinks);
+            if (deepest > 0) fill(step, h, 0, deepest, Branch::loading);
+            if (deepest < end) fill(step, h, deepest, end, Branch::unloading);
+            separation = value_of(step.at(S(end), root));
+        };
+        if (!follow(visit, true)) return false;
+        for (std::size_t i = 0; i < depths.size(); ++i) {
+            if (branches[i] == Branch::unloading && std::sqrt(depths[i]) < separation) forces[i] = S(0);
+        }
+        return true;
+    }
+
+private:
+    using State = Eigen::Array<S, 3, 1>;
+    static constexpr Eigen::Index root = 0, rate = 1, time = 2;
+    using Stepper = DormandPrince853<State, 2>;
+
+    static S clamped(const S& force) { return force > S(0) ? force : S(0); }
+
+    /// A depth of the order of the deepest point, as its root: where the law's force has done the work m v^2.
+    [[nodiscard]] double depth_scale() const {
+        const double energy = value_of(mass_) * std::pow(value_of(speed_), 2);
+        const auto shallow = [&](double log_s) {
+            const double s = std::exp(log_s);
+            return s * s * value_of(law_.template force<0>(S(s), speed_).total()) < energy;
+        };
+        return std::exp(turning_point(std::log(1e-15), std::log(1e15), shallow));
+    }
+
+    /// Integrates to the end of contact. `visit(step, h, theta)` sees each step, of size h, with dense output from 0
+    /// to theta if asked.
+    template <class Visit>
+    std::optional<S> follow(const Visit& visit, bool dense) const {
+        using std::abs, std::pow;
+        constexpr int most_steps = 5000;
+        const double s_scale = depth_scale(), v = value_of(speed_), sigma_scale = 2 * s_scale / v;
+        if (!(s_scale > 0) || !std::isfinite(sigma_scale) || !(v > 0)) return std::nullopt;
+        const auto f = [&](const State& y, State& out, bool) {
+            out[root] = S(0.5) * y[rate];
+            out[rate] = -y[root] * law_.template force<0>(y[root], y[rate]).total() / mass_;
+            out[time] = y[root];
+        };
+        State weight;
+        weight << S(1 / (tolerance_ * s_scale)), S(1 / (tolerance_ * v)), S(1 / (tolerance_ * s_scale * sigma_scale));
+
+        Stepper step;
+        State y;
+        y << S(0), speed_, S(0);
+        step.begin(f, y);
+        double h = 1e-2 * sigma_scale;
+        for (int i = 0; i < most_steps; ++i) {
+            step.step(f, S(h));
+            const double error = value_of(step.error(weight));
+            const double factor = error > 0 ? 0.9 * pow(error, -1.0 / Stepper::order) : 5;
+            if (!(error <= 1)) {
+                h *= error > 1 ? std::max(0.2, factor) : 0.2;  // a NaN came from a step that was far too long
+                continue;
+            }
+            step.finish(f);
+            const auto presses = [&](const S& s, const S& w) { return s > S(0) && law_.load(s, w) > S(0); };
+            const bool ended = !presses(step.end()[root], step.end()[rate]);
+            if (dense || ended) step.prepare_dense(f);
+            if (ended) {
+                const auto presses_at = [&](double theta) {
+                    return theta <= 0 || presses(step.at(S(theta), root), step.at(S(theta), rate));
+                };
+                const double end = turning_point(0, 1, presses_at);
+                visit(step, h, end);
+                return -step.at(S(end), rate);
+            }
+            visit(step, h, 1.0);
+            const State end = step.end();
+            step.advance(end);
+            h *= std::clamp(factor, 0.2, 5.0);
+        }
+        return std::nullopt;
+    }
+
+    /// The place in the step of size h, between `from` and `to`, where a component that is monotonous there has the
+    /// value `wanted`, with its derivatives: one step of Newton's method in dual numbers.
+    [[nodiscard]] S solve(const Stepper& step, double h, double from, double to, Eigen::Index component,
+                          const S& wanted) const {
+        const auto excess = [&](double theta) { return value_of(step.at(S(theta), component)) - value_of(wanted); };
+        const double first = excess(from), last = excess(to);
+        double theta = std::abs(first) < std::abs(last) ? from : to;
+        if (first * last < 0) {
+            std::uintmax_t most = 60;
+            const auto bracket = boost::math::tools::toms748_solve(excess, from, to, first, last,
+                                                                   boost::math::tools::eps_tolerance<double>(50), most);
+            theta = (bracket.first + bracket.second) / 2;
+        }
+        const S at_theta = step.at(S(theta), component);
+        const double slope =
+            h * (component == time ? value_of(step.at(S(theta), root)) : 0.5 * value_of(step.at(S(theta), rate)));
+        const S place = S(theta) - (at_theta - wanted) / S(slope);
+        using std::isfinite;
+        return isfinite(place) && std::abs(value_of(place) - theta) < 1e-6 ? place : S(theta);
+    }
+
+    [[nodiscard]] S force_at(const Stepper& step, const S& theta) const {
+        return clamped(law_.template force<0>(step.at(theta, root), step.at(theta, rate)).total());
+    }
+
+    AnyNormal<S> law_;
+    S mass_, speed_;
+    double tolerance_;
+};
+
+}  // namespace footfall::study

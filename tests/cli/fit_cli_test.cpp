@@ -1,0 +1,116 @@
+// footfall fit as a user runs it: streams, exit codes, files.
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include "io/temporary_folder.hpp"
+
+namespace footfall::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool contains(const std::string& text, std::string_view words) { return text.find(words) != std::string::npos; }
+
+struct Result {
+    int exit_code;
+    std::string out, err;
+};
+
+class FitCli : public ::testing::Test {
+protected:
+    TemporaryFolder folder;
+    const std::string data = std::string(FOOTFALL_SOURCE_DIR) + "/data/synthetic/";
+    const std::string paper = " --normal azad-featherstone:stiffness=?,damping=?";
+
+    [[nodiscard]] Result fit(const std::string& arguments) const {
+        const std::string err = (folder / ".err").string();
+        std::FILE* pipe = ::popen((std::string(FOOTFALL_CLI) + " fit " + arguments + " 2> " + err).c_str(), "r");
+        Result result{};
+        std::array<char, 4096> buffer{};
+        while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
+            result.out.append(buffer.data(), count);
+        }
+        result.exit_code = WEXITSTATUS(::pclose(pipe));
+        result.err = read_text(err);
+        std::filesystem::remove(err);
+        return result;
+    }
+};
+
+TEST_F(FitCli, ReportsTheTraceThatIsShipped) {
+    const Result result = fit(data + "force-time.csv --mass '154 g' --speed '1 m/s'" + paper);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    for (const char* part : {"force against time, 200 data", "azad-featherstone", "stiffness", "95 % interval",
+                             "correlation of stiffness and damping", "AICc"}) {
+        EXPECT_TRUE(contains(result.out, part)) << part << result.out;
+    }
+    EXPECT_FALSE(contains(result.out, "Warning"));
+}
+
+TEST_F(FitCli, JsonIsAllThereIsAndHasTheTruthInItsIntervals) {
+    const Result result = fit(data + "force-time.csv --mass '154 g' --speed '1 m/s' --json" + paper +
+                              " --normal hunt-crossley:stiffness=?,damping=?");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const Json json = Json::parse(result.out);
+    EXPECT_EQ(json["kind"], "force-time");
+    EXPECT_EQ(json["best"], "azad-featherstone");
+    ASSERT_EQ(json["laws"].size(), 2U);
+    const Json& estimates = json["laws"][0]["estimates"];
+    // The truth is in the file's own header; the noise is 1 %.
+    EXPECT_NEAR(estimates[0]["value"].get<double>() / 8.5e6, 1, 0.01);
+    EXPECT_NEAR(estimates[1]["value"].get<double>() / 3.1e3, 1, 0.02);
+    EXPECT_LT(estimates[0]["low"].get<double>(), estimates[0]["value"].get<double>());
+    EXPECT_TRUE(estimates[2]["standard_error"].is_null());
+    EXPECT_EQ(json["laws"][0]["residuals"].size(), 200U);
+    EXPECT_GT(json["laws"][1]["aicc_difference"].get<double>(), 100);
+}
+
+TEST_F(FitCli, SaysWhatRestitutionAloneCanTell) {
+    const Result result = fit(data + "restitution.csv --mass '154 g'" + paper);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(contains(result.out, "damping stiffness^(-3/5) mass^(-2/5)   0.4")) << result.out;
+    EXPECT_TRUE(contains(result.out, "do not determine stiffness and damping one by one")) << result.out;
+}
+
+TEST_F(FitCli, FitsALoopWithItsRateAndWritesTheResiduals) {
+    const std::string csv = (folder / "residuals.csv").string();
+    const Result result = fit(data + "force-indentation.csv --loss huber --csv " + csv + paper);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(contains(result.out, "Written\n  " + csv));
+    const std::string table = read_text(csv);
+    EXPECT_TRUE(contains(table, "azad-featherstone.residual")) << table.substr(0, 400);
+}
+
+TEST_F(FitCli, WrongDataAndWrongOptionsExitWithTwo) {
+    const std::string bad = folder.write("bad.csv", "speed [m/s],restitution\n0.1,0.9\n0.2,1.9\n").string();
+    Result result = fit(bad + " --mass 1" + paper);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err, "footfall: " + bad + ":3:5: restitution is '1.9'; allowed is from 0 to 1\n");
+    for (const std::string& arguments :
+         {data + "restitution.csv" + paper,   // no mass
+          data + "restitution.csv --mass 1",  // no law
+          data + "restitution.csv --mass 1 --normal azad-featherstone:stiffness=1,damping=1",
+          data + "restitution.csv --mass '1 m'" + paper, data + "restitution.csv --mass 1 --loss square" + paper,
+          data + "restitution.csv --mass 1 --sigma-is-true" + paper, (folder / "none.csv").string() + paper}) {
+        result = fit(arguments);
+        EXPECT_EQ(result.exit_code, 2) << arguments << result.out;
+        EXPECT_EQ(result.err.find("footfall: "), 0U) << result.err;
+        EXPECT_EQ(result.out, "");
+    }
+}
+
+TEST_F(FitCli, HelpEndsWithAnExample) {
+    const Result result = fit("--help");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_TRUE(contains(result.out, "Example:\n  footfall fit data/synthetic/restitution.csv"));
+}
+
+}  // namespace
+}  // namespace footfall::test

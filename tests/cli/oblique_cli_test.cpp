@@ -1,0 +1,165 @@
+// footfall oblique, as a user meets it.
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+#include "io/temporary_folder.hpp"
+
+namespace footfall::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Answer {
+    int exit_code;
+    std::string out, err;
+};
+
+class ObliqueCli : public ::testing::Test {
+protected:
+    TemporaryFolder folder;
+
+    /// Runs `footfall oblique` with words for a shell.
+    Answer oblique(const std::string& words) const {
+        const std::string err = (folder / ".err").string();
+        const std::string command = std::string(FOOTFALL_CLI) + " oblique " + words + " 2>" + err;
+        std::string out;
+        std::FILE* pipe = ::popen(command.c_str(), "r");
+        EXPECT_NE(pipe, nullptr);
+        std::array<char, 4096> buffer;
+        for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) out.append(buffer.data(), n);
+        const int status = ::pclose(pipe);
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, std::move(out), read_text(err)};
+    }
+
+    static std::vector<double> column(const Json& json, const std::string& name) {
+        for (const Json& c : json["columns"]) {
+            if (c["name"] == name) return c["values"].get<std::vector<double>>();
+        }
+        ADD_FAILURE() << "no column " << name;
+        return {};
+    }
+};
+
+const std::string ball =
+    "--radius 2.5mm --density 4000 --speed 3.9 --normal azad-featherstone:stiffness=2.675e10,damping=0 ";
+const std::string friction = "--friction azad-featherstone:stiffness=4.01e10,damping=0,coefficient=0.092 ";
+
+TEST_F(ObliqueCli, JsonIsTheTableWithEveryPhase) {
+    const Answer answer = oblique(ball + friction + "--angles 50..60:5 --json");
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_EQ(answer.err, "");
+    const Json json = Json::parse(answer.out);
+    const std::vector<double> angle = column(json, "angle"), e_t = column(json, "tangential_restitution");
+    ASSERT_EQ(angle.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(angle[i], 50 + 5.0 * static_cast<double>(i), 1e-9);
+        EXPECT_NEAR(e_t[i], 1 - 2 * 0.092 / std::tan(angle[i] * std::numbers::pi / 180), 1e-8);  // it slides, e_n = 1
+    }
+    ASSERT_EQ(json["history"].size(), 3U);
+    EXPECT_EQ(json["history"][0][0]["phase"], "slip");
+}
+
+TEST_F(ObliqueCli, PlainAnglesAreDegreesAndUnitsAreTaken) {
+    const auto e_t = [&](const std::string& angles) {
+        return column(Json::parse(oblique(ball + friction + "--json --angles " + angles).out),
+                      "tangential_restitution");
+    };
+    const std::vector<double> plain = e_t("15"), in_radians = e_t("0.2617993877991494rad");
+    ASSERT_EQ(plain.size(), 1U);
+    EXPECT_NEAR(plain[0], in_radians.at(0), 1e-12);
+}
+
+TEST_F(ObliqueCli, SweepsTheSpinAtAGivenNormalSpeed) {
+    const Answer answer = oblique("--radius 2.5mm --mass 0.26g --normal-speed 2 --angles 0 --spins=-100,0,100 --json " +
+                                  friction + "--normal azad-featherstone:stiffness=2.675e10,damping=0");
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    const std::vector<double> v = column(Json::parse(answer.out), "tangential_velocity_after");
+    ASSERT_EQ(v.size(), 3U);
+    EXPECT_NEAR(v[1], 0, 1e-12);
+    EXPECT_NEAR(v[0], -v[2], 1e-10);
+    EXPECT_GT(std::abs(v[0]), 1e-3);
+}
+
+TEST_F(ObliqueCli, TheAskedRestitutionIsMetAtNormalIncidence) {
+    const Answer answer = oblique(ball + friction + "--restitution 0.8 --angles 0 --json");
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_NEAR(column(Json::parse(answer.out), "normal_restitution").at(0), 0.8, 1e-8);
+}
+
+TEST_F(ObliqueCli, WritesTheTableAndThePhasesAsCsv) {
+    const Answer answer = oblique(ball + friction + "--angles 10,50 --csv " + (folder / "t.csv").string() +
+                                  " --history " + (folder / "h.csv").string());
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_NE(read_text(folder / "t.csv").find("contact_rebound_angle"), std::string::npos);
+    EXPECT_NE(read_text(folder / "h.csv").find("row,phase,start,duration\n0,0,0,"), std::string::npos);
+    EXPECT_NE(answer.out.find("Stick and slip, durations in us"), std::string::npos) << answer.out;
+}
+
+TEST_F(ObliqueCli, FitsTheCoefficientToAMeasuredCurve) {
+    std::string data = "# closed form of sliding\nangle,tangential_restitution\n";
+    for (const double angle : {55.0, 65.0, 75.0}) {
+        const double e_t = 1 - 2 * 0.12 / std::tan(angle * std::numbers::pi / 180);
+        data += std::to_string(angle) + "," + std::to_string(e_t) + "\n";
+    }
+    const std::string file = folder.write("d.csv", data).string();
+    const Answer answer = oblique(ball + friction + "--vary friction.coefficient --json --fit " + file);
+    ASSERT_EQ(answer.exit_code, 0) << answer.err;
+    const Json json = Json::parse(answer.out);
+    EXPECT_NEAR(json["estimates"][0]["value"].get<double>(), 0.12, 2e-6);
+    EXPECT_EQ(json["observable"], "tangential_restitution");
+    EXPECT_NE(oblique(ball + friction + "--vary friction.coefficient --fit " + file).out.find("friction.coefficient"),
+              std::string::npos);
+}
+
+TEST_F(ObliqueCli, WrongInputExitsWithTwoAndSaysWhereItIs) {
+    const auto refuse = [&](const std::string& words, const std::string& reason) {
+        const Answer answer = oblique(words);
+        EXPECT_EQ(answer.exit_code, 2) << words;
+        EXPECT_EQ(answer.out, "");
+        EXPECT_EQ(answer.err.find("footfall: "), 0U) << answer.err;
+        EXPECT_NE(answer.err.find(reason), std::string::npos) << answer.err;
+    };
+    const std::string good = ball + friction;
+    refuse(ball, "--friction");
+    refuse(good + "--normal-speed 3", "--normal-speed");
+    refuse("--radius 1 --speed 1 --normal linear:stiffness=1,damping=0 --friction none", "--mass or --density");
+    refuse("--radius 1 --mass 1 --normal linear:stiffness=1,damping=0 --friction none", "--speed or --normal-speed");
+    refuse(good + "--angles 90", "below 90");
+    refuse(good + "--angles 5..85", "START..END:STEP");
+    refuse(good + "--angles 85..5:5", "from START to END");
+    refuse(good + "--angles 5..85:0", "from START to END");
+    refuse(good + "--spins 5m", "--spins");
+    refuse(good + "--vary friction.coefficient", "--fit");
+    const auto data = [&](const std::string& text) {
+        return "--vary friction.coefficient --fit " + folder.write("d.csv", text).string();
+    };
+    refuse(good + data("angle,spin_after\n10,x\n"), "d.csv:2: spin_after");
+    refuse(good + data("angle,spin_after\n10\n"), "d.csv:2: 1 values for 2 columns");
+    refuse(good + data("angle,spin_after,rebound_angle\n"), "two observables");
+    refuse(good + data("angle,colour\n10,1\n"), "colour");
+    refuse(good + data("angle,spin_after\n"), "no measurements");
+    refuse(good + "--vary friction.coefficient --fit " + (folder / "none.csv").string(), "none.csv");
+    refuse(good + "--fit " + folder.write("d.csv", "angle,spin_after\n10,1\n").string(), "--vary");
+}
+
+TEST_F(ObliqueCli, TheExampleOfItsHelpRuns) {
+    const std::string help = oblique("--help").out;
+    const std::size_t begin = help.find("  footfall oblique");
+    ASSERT_NE(begin, std::string::npos);
+    const std::size_t words = begin + std::string("  footfall oblique").size();
+    const Answer answer = oblique(help.substr(words, help.find("\n\n", words) - words));
+    EXPECT_EQ(answer.exit_code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("tangential_restitution"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace footfall::test
