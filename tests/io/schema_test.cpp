@@ -38,6 +38,7 @@ const Json& schema() {
 TEST(ScenarioSchema, ShippedScenariosConform) {
     int seen = 0;
     for (const auto& entry : std::filesystem::directory_iterator(FOOTFALL_SOURCE_DIR "/scenarios")) {
+        if (entry.is_directory()) continue;  // the rigs of footfall drive
         EXPECT_TRUE(conforms(json_of(read(entry.path())), schema())) << entry.path();
         ++seen;
     }

@@ -32,6 +32,7 @@ TEST(ShippedScenarios, AreAllThereAndLoad) {
                                   "foot-heel-first", "slope-stick",       "slope-slide",   "slope-block-stick",
                                   "spinning-ball",   "slope-block-slide", "resting-ball"};
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.is_directory()) continue;  // the rigs of footfall drive
         missing.erase(entry.path().stem().string());
         try {
             const Scenario scenario = load_scenario(entry.path());

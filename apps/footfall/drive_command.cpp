@@ -1,0 +1,113 @@
+// footfall drive: a test rig in; loops, stick-slip and drift out, for one pair of laws or for several side by side.
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "footfall/io/law_text.hpp"
+#include "footfall/io/rig.hpp"
+#include "footfall/io/table_output.hpp"
+#include "footfall/study/drive.hpp"
+#include "terminal.hpp"
+
+namespace footfall::cli {
+namespace {
+
+struct DriveArguments {
+    std::filesystem::path rig;
+    std::vector<std::string> normal, friction;  ///< in place of the file's
+    std::optional<double> tolerance;
+    std::optional<std::filesystem::path> csv;
+    bool json = false;
+};
+
+/// The laws to drive, each pair with a name that no other has.
+std::vector<RigRun> laws_to_drive(const DriveArguments& arguments, const ContactParameters& in_file) {
+    std::vector<NormalLaw> normals;
+    std::vector<FrictionLaw> frictions;
+    for (const std::string& text : arguments.normal) normals.push_back(parse_normal_law(text));
+    for (const std::string& text : arguments.friction) frictions.push_back(parse_friction_law(text));
+    if (normals.empty()) normals.push_back(in_file.normal);
+    if (frictions.empty()) frictions.push_back(in_file.friction);
+
+    std::vector<RigRun> runs;
+    std::map<std::string, int> taken;
+    for (const NormalLaw& normal : normals) {
+        for (const FrictionLaw& friction : frictions) {
+            std::string name(name_of(friction));
+            if (normals.size() > 1)
+                name = frictions.size() > 1 ? fmt::format("{} + {}", name_of(normal), name) : name_of(normal);
+            const int nth = ++taken[name];
+            if (nth > 1) name += fmt::format(" ({})", nth);
+            runs.push_back({{normal, friction}, {name, {}}});
+        }
+    }
+    return runs;
+}
+
+int drive_rig(const DriveArguments& arguments) {
+    RigFile file = load_rig(arguments.rig);
+    if (arguments.tolerance) file.rig.tolerance = *arguments.tolerance;
+    std::vector<RigRun> runs = laws_to_drive(arguments, file.laws);
+    for (RigRun& run : runs) {
+        const std::string where = fmt::format("{}: {}", arguments.rig.string(), run.named.name);
+        try {
+            run.named.drive = drive(file.rig, run.laws);
+        } catch (const InvalidInput& error) {
+            throw InvalidInput(fmt::format("{}: {}", where, error.what()));
+        } catch (const TooExpensive& error) {
+            throw TooExpensive(fmt::format("{}: {}", where, error.what()));
+        }
+    }
+    if (arguments.csv) {
+        std::vector<NamedDrive> named;
+        for (const RigRun& run : runs) named.push_back(run.named);
+        write_csv(*arguments.csv, drive_table(file.rig, named));
+    }
+    if (arguments.json) {
+        print(to_json(file.rig, runs) + "\n");
+    } else {
+        print(summary(file.rig, runs));
+        if (arguments.csv) print(fmt::format("\nWritten\n  {}\n", arguments.csv->string()));
+    }
+    return ExitCode::success;
+}
+
+}  // namespace
+
+CLI::App* add_drive(CLI::App& app, Command& command) {
+    auto arguments = std::make_shared<DriveArguments>();
+    CLI::App* drive = app.add_subcommand("drive", "Drive one contact along a path: loops, stick-slip, drift");
+    drive->add_option("RIG", arguments->rig, "The rig, a TOML file")->required()->type_name("");
+    drive
+        ->add_option("--normal", arguments->normal,
+                     "A normal law in place of the file's, NAME:key=value,...; again for another run beside it")
+        ->type_name("LAW")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    drive
+        ->add_option("--friction", arguments->friction,
+                     "A friction law in place of the file's, likewise; `footfall laws` lists them all")
+        ->type_name("LAW")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    drive->add_option("--tolerance", arguments->tolerance, "Relative tolerance, in place of the file's")
+        ->type_name("NUMBER");
+    drive->add_option("--csv", arguments->csv, "Write the samples as a table")->type_name("FILE");
+    drive->add_flag("--json", arguments->json, "Print JSON instead of the summary");
+    drive->footer(
+        "Example:\n"
+        "  footfall drive scenarios/rigs/presliding-loop.toml\n"
+        "  footfall drive scenarios/rigs/presliding-loop.toml --friction dahl:stiffness=1e4,coefficient=0.4 \\\n"
+        "      --friction linear:stiffness=1e5,damping=0,coefficient=0.4 --csv loops.csv\n");
+    drive->final_callback([&command, arguments] { command = [arguments] { return drive_rig(*arguments); }; });
+    return drive;
+}
+
+}  // namespace footfall::cli

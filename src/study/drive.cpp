@@ -1,0 +1,555 @@
+// Drives a contact through the intervals of its timeline: phases frozen during a step, their ends located, energy
+// booked.
+#include "footfall/study/drive.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include <boost/math/tools/toms748_solve.hpp>
+#include <fmt/format.h>
+
+#include "footfall/simulate/guard_search.hpp"
+#include "footfall/simulate/method.hpp"
+#include "study/driven_contact.hpp"
+#include "study/timeline.hpp"
+
+namespace footfall {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// Watches the deflection of a held mass for its greatest and least values.
+class Swing {
+public:
+    struct Turn {
+        double time, deflection;
+        bool greatest;
+    };
+
+    Swing(const Rig& rig, const Timeline& timeline) : rig_(&rig) {
+        if (rig.drag != Drag::mass || !(rig.mass.stiffness > 0)) return;
+        const Interval& last = timeline.intervals().back();
+        const Instant end = timeline.at(last, 0.5);
+        const Eigen::Vector2d drawn = end.belt - end.support_velocity;
+        speed_ = drawn.norm();
+        if (speed_ > 0) along_ = drawn / speed_;
+    }
+
+    [[nodiscard]] bool watches() const noexcept { return speed_ > 0; }
+    /// How fast the mass moves along the belt's way relative to the support.
+    [[nodiscard]] double rate(const DrivenState& y, const Instant& now) const {
+        return along_.dot(Eigen::Vector2d(y[DrivenLayout::velocity], y[DrivenLayout::velocity + 1]) -
+                          now.support_velocity);
+    }
+    [[nodiscard]] double deflection(const DrivenState& y, const Instant& now) const {
+        return along_.dot(Eigen::Vector2d(y[DrivenLayout::position], y[DrivenLayout::position + 1]) - now.support);
+    }
+    void turn(double time, double deflection, bool greatest) { turns_.push_back({time, deflection, greatest}); }
+
+    [[nodiscard]] std::optional<StickSlip> result(const std::vector<RigState>& samples) const {
+        // From one greatest deflection to another, in the later half.
+        std::vector<Turn> turns = large_turns();
+        while (!turns.empty() && !turns.front().greatest) turns.erase(turns.begin());
+        while (!turns.empty() && !turns.back().greatest) turns.pop_back();
+        if (turns.size() < 3) return std::nullopt;
+        StickSlip s;
+        s.cycles = static_cast<int>(turns.size() / 2);
+        for (std::size_t i = 0; i + 1 < turns.size(); ++i)
+            (turns[i].greatest ? s.greatest : s.least) += turns[i].deflection / s.cycles;
+        const double from = turns.front().time, to = turns.back().time;
+        s.period = (to - from) / s.cycles;
+        s.amplitude = (s.greatest - s.least) / 2;
+        int with = 0, all = 0;
+        for (const RigState& state : samples) {
+            if (state.time < from || state.time > to) continue;
+            ++all;
+            if (state.slip_velocity.norm() < 0.01 * speed_) ++with;
+        }
+        s.sticking = all > 0 ? static_cast<double>(with) / all : 0;
+        return s;
+    }
+
+private:
+    /// The turns of the later half that come after a way of more than a quarter of the whole swing, by turns greatest
+    /// and least: a mass that swings on its contact as well has small ones in between.
+    [[nodiscard]] std::vector<Turn> large_turns() const {
+        std::vector<Turn> late, large;
+        for (const Turn& t : turns_)
+            if (t.time >= rig_->end_time / 2) late.push_back(t);
+        if (late.empty()) return large;
+        const auto [least, greatest] = std::minmax_element(
+            late.begin(), late.end(), [](const Turn& a, const Turn& b) { return a.deflection < b.deflection; });
+        const double way = (greatest->deflection - least->deflection) / 4;
+        for (const Turn& t : late) {
+            if (large.empty() || large.back().greatest == t.greatest) {
+                // Another of the same kind, with nothing large in between: the farther one counts.
+                if (large.empty())
+                    large.push_back(t);
+                else if ((t.deflection > large.back().deflection) == t.greatest)
+                    large.back() = t;
+            } else if (std::abs(t.deflection - large.back().deflection) > way) {
+                large.push_back(t);
+            }
+        }
+        return large;
+    }
+
+    const Rig* rig_;
+    double speed_ = 0;
+    Eigen::Vector2d along_{0, 0};
+    std::vector<Turn> turns_;
+};
+
+class Driver {
+public:
+    Driver(const Rig& rig, const ContactParameters& laws)
+        : rig_(rig),
+          timeline_(rig, std::visit([](const auto& law) { return AnyNormal<>(law); }, laws.normal)),
+          contact_(DrivenContact::make(rig, timeline_, laws)),
+          swing_(rig, timeline_),
+          method_(RightHandSide{this}, Slopes{this}, contact_->layout().motion_size()) {
+        const DrivenLayout& layout = contact_->layout();
+        y_ = DrivenState::Zero(layout.size());
+        weight_ = DrivenState::Ones(layout.size());
+        seen_ = DrivenState::Zero(layout.size());
+        set_floors();
+    }
+
+    Drive run() {
+        const auto start = std::chrono::steady_clock::now();
+        const std::vector<Interval>& intervals = timeline_.intervals();
+        for (std::size_t k = 0; k < intervals.size(); ++k) {
+            begin_interval(intervals[k], k == 0);
+            while (y_[L::theta] < 1) advance();
+            y_[L::theta] = 1;
+        }
+        sample_end();
+        result_.stick_slip = swing_.result(result_.samples);
+        result_.max_residual = result_.energy_scale > 0 ? largest_error_ / result_.energy_scale : 0;
+        result_.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return std::move(result_);
+    }
+
+private:
+    using L = DrivenLayout;
+    struct RightHandSide {
+        Driver* driver;
+        void operator()(const DrivenState& y, DrivenState& rate, bool look) const { driver->evaluate(y, rate, look); }
+    };
+    struct Slopes {
+        Driver* driver;
+        template <class Vector, class Matrix>
+        void operator()(const Vector& y, Matrix& J) const {
+            ++driver->result_.cost.evaluations;
+            driver->contact_->differentiate(DrivenState(y), J);
+        }
+    };
+
+    void evaluate(const DrivenState& y, DrivenState& rate, bool look) {
+        ++result_.cost.evaluations;
+        contact_->evaluate(y, rate, look ? &guards_ : nullptr);
+        if (look) lowest_ = std::min(lowest_, guards_.clutch);
+    }
+
+    // ---- sizes ------------------------------------------------------------------------------------------------
+
+    // The least size that a component is measured by: what it may become, times a number that is small enough for what
+    // it does become. From then on the largest that has been seen counts.
+    void set_floors() {
+        constexpr double little = 1e-6;
+        const DrivenLayout& layout = contact_->layout();
+        double way = 0, speed = 0, force = timeline_.largest_load();
+        for (const Interval& interval : timeline_.intervals()) {
+            constexpr int looks = 16;
+            for (int i = 0; i <= looks; ++i) {
+                const Instant now = timeline_.at(interval, i / static_cast<double>(looks));
+                speed = std::max({speed, now.slip.norm(), now.belt.norm(), now.support_velocity.norm()});
+                way = std::max({way, now.support.norm(), now.slip.norm() * interval.length(),
+                                now.belt.norm() * interval.length(),
+                                rig_.drag == Drag::displacement ? now.displacement.norm() : 0.0});
+                force = std::max(force, now.force.norm());
+            }
+        }
+        if (rig_.drag == Drag::mass && !(speed > 0)) {
+            const double stiffness = std::max(rig_.mass.stiffness, timeline_.largest_load() / largest_depth());
+            way = std::max(way, force / stiffness);
+            speed = way * std::sqrt(stiffness / rig_.mass.mass);
+        }
+        if (!(way > 0)) way = largest_depth();
+        if (!(speed > 0)) speed = way / rig_.end_time;
+        floor_ = DrivenState::Zero(layout.size());
+        floor_.segment(L::position, 2).setConstant(little * way);
+        floor_.segment(L::velocity, 2).setConstant(little * speed);
+        for (int i = 0; i < layout.state_count; ++i) {
+            const double size = contact_->state_size(i);
+            floor_[L::states + i] = size > 0 ? 1e-2 * size : little * std::min(way, largest_depth());
+        }
+        floor_.segment(layout.displacement(), 2).setConstant(little * way);
+        const double energy = force * std::max(largest_depth(), little * way);
+        floor_.segment(layout.ledger(), layout.size() - layout.ledger()).setConstant(little * energy);
+        floor_[L::theta] = 1;
+    }
+    [[nodiscard]] double largest_depth() const {
+        return timeline_.largest_depth() > 0 ? timeline_.largest_depth() : 1e-6;
+    }
+
+    void see() {
+        const DrivenLayout& layout = contact_->layout();
+        const auto pair = [&](int at) {
+            const double size = std::max({std::hypot(y_[at], y_[at + 1]), seen_[at], seen_[at + 1]});
+            seen_[at] = seen_[at + 1] = size;
+        };
+        pair(L::position);
+        pair(L::velocity);
+        pair(layout.displacement());
+        if (layout.state_count >= 2) pair(L::states);
+        for (int i = 2; i < layout.state_count; ++i)
+            seen_[L::states + i] = std::max(seen_[L::states + i], std::abs(y_[L::states + i]));
+        seen_.segment(layout.ledger(), layout.size() - layout.ledger()).setConstant(result_.energy_scale);
+        const DrivenState size = seen_.max(floor_);
+        for (Eigen::Index c = 0; c < weight_.size(); ++c)
+            weight_[c] = 1 / std::max({rig_.tolerance * size[c], 8 * eps * std::abs(y_[c]), 1e-300});
+        weight_[L::theta] = 1;  // its rate is 1: it has no error
+    }
+
+    // ---- steps ------------------------------------------------------------------------------------------------
+
+    void begin_interval(const Interval& interval, bool first) {
+        const Phase before = contact_->phase();
+        if (!first) y_[L::theta] = 1;
+        if (first) {
+            interval_ = interval;
+            contact_->enter(interval, y_);
+            initial_balance_ = state(y_).energy.balance();
+            account();
+            next_sample_ = 0;
+        } else {
+            interval_ = interval;
+            contact_->enter(interval, y_);
+            account();
+        }
+        say_phase(before, first);
+        look_along_now();
+        begin_phase();
+        if (guards_.clutch < 0) {  // what a kink of the paths has changed at once
+            switch_clutch();
+            begin_phase();
+        }
+        step_ = std::min(first ? 1e-4 : last_step_ / interval.length(), 0.05);
+        if (!(step_ > 0)) step_ = 1e-4;
+        if (first) sample_until(interval.from);
+    }
+
+    void say_phase(Phase before, bool first) {
+        const auto loaded = [](Phase p) { return p == Phase::stick || p == Phase::slip; };
+        const Phase now = contact_->phase();
+        if (loaded(now) && (first || !loaded(before))) {
+            say(EventKind::touchdown);
+            if (now == Phase::stick) say(EventKind::stick);
+        } else if (loaded(now) && now != before) {
+            say(now == Phase::stick ? EventKind::stick : EventKind::slip);
+        } else if (!loaded(now)) {
+            if (loaded(before) && !first) say(EventKind::separation);
+            if (now == Phase::flight && before != Phase::flight && !first) say(EventKind::recovered);
+        }
+    }
+    void say(EventKind kind) {
+        result_.events.push_back({time_at(y_[L::theta]), kind, state(y_)});
+        see_forces(result_.events.back().state);
+    }
+
+    void look_along_now() {
+        const Eigen::Vector2d V = contact_->moment(y_).slip;
+        contact_->look_along(V.norm() > 0 ? Eigen::Vector2d(V.normalized()) : Eigen::Vector2d(0, 0));
+    }
+
+    void begin_phase() {
+        see();
+        method_.begin(y_);
+        lowest_ = guards_.clutch;
+        start_guards_ = guards_;
+    }
+
+    void advance() {
+        const double rest = 1 - y_[L::theta];
+        const double taken = accepted_step(rest);
+        const DrivenGuards end_guards = guards_;
+        Crossing<double> crossing = find_crossing(end_guards);
+        const bool whole = !crossing;
+        if (crossing && !locate(crossing, taken)) {
+            step_ = 0.5 * crossing.theta * taken;
+            return;
+        }
+        const double from = y_[L::theta];
+        const double to = whole && taken >= rest ? 1 : method_.end()[L::theta];
+        record_inside(from, to);
+        y_ = method_.end();
+        y_[L::theta] = to;
+        ++result_.cost.steps;
+        if (method_.implicit()) ++result_.cost.stiff_steps;
+        last_step_ = step_ * interval_.length();
+        account();
+        if (crossing) {
+            handle(crossing);
+            begin_phase();
+        } else {
+            start_guards_ = end_guards;
+            if (end_guards.clutch > 0) armed_ = true;
+            if (end_guards.turn > 0) turn_armed_ = true;
+            if (contact_->turns() && contact_->direction().isZero(0)) look_along_now();
+            see();
+            method_.advance(y_, weight_);
+            lowest_ = end_guards.clutch;
+        }
+        if (static_cast<double>(result_.cost.evaluations) > rig_.max_evaluations)
+            throw TooExpensive(fmt::format("stopped at {:.6g} s: max_evaluations = {:.3g} is spent",
+                                           time_at(y_[L::theta]), rig_.max_evaluations));
+    }
+
+    double accepted_step(double rest) {
+        bool refused = false;
+        for (;;) {
+            const double longest = std::min(rest, timeline_.longest_step(interval_));
+            const bool cut = step_ >= longest;
+            const double h = cut ? longest : step_;
+            method_.step(h, weight_);
+            const double error = method_.error(weight_);
+            if (error <= 1) {
+                method_.finish();
+                const double factor = method_.growth(error, refused);
+                if (!cut) step_ = h * factor;
+                if (cut && factor < 1) step_ = h;
+                return h;
+            }
+            ++result_.cost.rejected;
+            refused = true;
+            step_ = method_.gives_up(error) ? 1e-4 : h * method_.growth(error, true);
+            if (!(step_ > 1e-14))
+                throw TooExpensive(fmt::format("stopped at {:.6g} s: no step is small enough for the tolerance",
+                                               time_at(y_[L::theta])));
+        }
+    }
+
+    // ---- events -----------------------------------------------------------------------------------------------
+
+    static constexpr int clutch_guard = 0, turn_guard = 1;
+
+    [[nodiscard]] Crossing<double> find_crossing(const DrivenGuards& at_end) {
+        Crossing<double> first;
+        bool dense = false;
+        const auto prepare = [&] {
+            if (!dense) method_.prepare_dense();
+            dense = true;
+        };
+        DrivenState scratch_rate = y_;
+        const auto value_of = [&](int guard) {
+            return [this, guard, &scratch_rate](double theta) {
+                DrivenGuards g;
+                contact_->evaluate(method_.at(theta), scratch_rate, &g);
+                return guard == clutch_guard ? g.clutch : g.turn;
+            };
+        };
+        const auto look = [&](int guard, double at_start, bool armed) {
+            const auto value = value_of(guard);
+            const double theta = first_zero<double>(value, armed ? at_start : 0.0);
+            if (theta < 0 || (first && first.theta <= theta)) return;
+            const double d = 1e-6, before = std::max(theta - d, 0.0), after = std::min(theta + d, 1.0);
+            first = {guard, theta, (value(after) - value(before)) / (after - before)};
+        };
+        const bool near = lowest_ < 0.1 * std::min(start_guards_.clutch, at_end.clutch);
+        if (at_end.clutch < 0 || near) {
+            prepare();
+            look(clutch_guard, start_guards_.clutch, armed_);
+        }
+        // A slip velocity that is nothing but rounding turns all the time.
+        const double noise = 1e3 * rig_.tolerance * std::max(seen_[L::velocity], floor_[L::velocity]);
+        if (at_end.turn < -noise) {
+            prepare();
+            look(turn_guard, start_guards_.turn, turn_armed_);
+        }
+        return first;
+    }
+
+    // Ends the step on the guard's zero, by steps of the method itself.
+    [[nodiscard]] bool locate(const Crossing<double>& crossing, double whole) {
+        double theta = crossing.theta;
+        for (int attempt = 0; attempt < 6; ++attempt) {
+            theta = std::clamp(theta, 0.0, 1.5);
+            method_.step(theta * whole, weight_);
+            method_.finish();
+            if (!method_.end().allFinite()) return false;
+            if (method_.implicit() && !(method_.error(weight_) < 1e9)) return false;
+            const double value = crossing.guard == clutch_guard ? guards_.clutch : guards_.turn;
+            if (!(crossing.slope < 0)) return true;
+            const double correction = -value / crossing.slope;
+            if (!(std::abs(correction) > 64 * eps)) return true;
+            theta += correction;
+        }
+        return true;
+    }
+
+    void handle(const Crossing<double>& crossing) {
+        if (crossing.guard == turn_guard) {
+            contact_->look_along(-contact_->direction());
+            turn_armed_ = false;
+            return;
+        }
+        const double now = time_at(y_[L::theta]);
+        constexpr int often = 50;  // two phases may each push the motion into the other
+        switches_ = now > last_switch_ + 1e-12 * rig_.end_time ? 0 : switches_ + 1;
+        last_switch_ = now;
+        if (switches_ > often)
+            throw TooExpensive(fmt::format("stopped at {:.6g} s: the clutch lets go and takes hold without end", now));
+        switch_clutch();
+    }
+
+    void switch_clutch() {
+        const Phase before = contact_->phase();
+        contact_->switch_phase(y_);
+        armed_ = false;
+        if (contact_->phase() != before) say(contact_->phase() == Phase::stick ? EventKind::stick : EventKind::slip);
+        account();
+    }
+
+    // ---- what is kept -----------------------------------------------------------------------------------------
+
+    [[nodiscard]] double time_at(double theta) const { return timeline_.at(interval_, theta).time; }
+
+    [[nodiscard]] RigState state(const DrivenState& y) const {
+        const DrivenLayout& layout = contact_->layout();
+        const Instant now = timeline_.at(interval_, y[L::theta]);
+        const DrivenMoment m = contact_->moment(y);
+        const auto pair = [&y](int at) { return Eigen::Vector2d(y[at], y[at + 1]); };
+        RigState s;
+        s.time = now.time;
+        s.phase = contact_->phase();
+        s.depth = now.depth;
+        s.depth_rate = now.depth_rate;
+        // At the surface itself the depth is kept from being exactly zero.
+        constexpr double nothing = 1e-90;
+        s.normal_force = m.normal_force > nothing ? m.normal_force : 0;
+        s.friction_force = m.friction_force;
+        s.slip_displacement = pair(layout.displacement());
+        s.slip_velocity = m.slip;
+        s.bristle = m.bristle;
+        const int e = layout.ledger();
+        RigEnergy& energy = s.energy;
+        energy.contact.normal_spring = m.normal_spring;
+        energy.contact.tangential_spring = m.tangential_spring;
+        energy.contact.normal_damper = y[e + L::normal_damper];
+        energy.contact.tangential_damper = y[e + L::tangential_damper];
+        energy.contact.clutch = y[e + L::clutch];
+        energy.contact.stiffness_change = y[e + L::stiffness_change];
+        energy.pressing_work = y[e + L::pressing_work];
+        energy.dragging_work = y[e + L::dragging_work];
+        if (rig_.drag == Drag::mass) {
+            const HeldMass& h = rig_.mass;
+            s.position = pair(L::position);
+            s.velocity = pair(L::velocity);
+            const Eigen::Vector2d stretch = now.support - s.position;
+            s.holding_force = h.stiffness * stretch + h.damping * (now.support_velocity - s.velocity);
+            energy.kinetic = 0.5 * h.mass * s.velocity.squaredNorm();
+            energy.holding_spring = 0.5 * h.stiffness * stretch.squaredNorm();
+            energy.holding_damper = y[e + L::holding_damper];
+        }
+        return s;
+    }
+
+    void account() {
+        const RigEnergy energy = state(y_).energy;
+        result_.energy_scale = std::max(result_.energy_scale, energy.magnitude());
+        largest_error_ = std::max(largest_error_, std::abs(energy.balance() - initial_balance_));
+    }
+
+    void record_inside(double from, double to) {
+        bool dense = false;
+        const auto prepare = [&] {
+            if (!dense) method_.prepare_dense();
+            dense = true;
+        };
+        const double until = time_at(to);
+        while (next_sample_ * rig_.period() < until && next_sample_ * rig_.period() < sample_end_time()) {
+            prepare();
+            const double theta = Timeline::theta_of(interval_, next_sample_ * rig_.period());
+            keep(method_.at(std::clamp((theta - from) / (to - from), 0.0, 1.0)));
+            ++next_sample_;
+        }
+        if (swing_.watches()) watch_swing(from, to, prepare);
+    }
+
+    template <class Prepare>
+    void watch_swing(double from, double to, Prepare&& prepare) {
+        const auto rate = [&](const DrivenState& y) { return swing_.rate(y, timeline_.at(interval_, y[L::theta])); };
+        const double before = rate(method_.start()), after = rate(method_.end());
+        if ((before > 0) == (after > 0) || !(to > from)) return;
+        prepare();
+        std::uintmax_t iterations = 60;
+        const auto r =
+            boost::math::tools::toms748_solve([&](double share) { return rate(method_.at(share)); }, 0.0, 1.0, before,
+                                              after, boost::math::tools::eps_tolerance<double>(), iterations);
+        const DrivenState y = method_.at((r.first + r.second) / 2);
+        const Instant now = timeline_.at(interval_, y[L::theta]);
+        swing_.turn(now.time, swing_.deflection(y, now), before > 0);
+    }
+
+    void sample_until(double time) {
+        while (next_sample_ * rig_.period() <= time) {
+            keep(y_);
+            ++next_sample_;
+        }
+    }
+    /// The last sample is the end itself, so one that rounding puts just before it is left out.
+    [[nodiscard]] double sample_end_time() const { return rig_.end_time * (1 - 64 * eps); }
+    void sample_end() { keep(y_); }
+
+    void keep(const DrivenState& y) {
+        result_.samples.push_back(state(y));
+        see_forces(result_.samples.back());
+    }
+    void see_forces(const RigState& s) {
+        result_.largest_normal_force = std::max(result_.largest_normal_force, s.normal_force);
+        result_.largest_friction_force = std::max(result_.largest_friction_force, s.friction_force.norm());
+    }
+
+    const Rig& rig_;
+    Timeline timeline_;
+    std::unique_ptr<DrivenContact> contact_;
+    Swing swing_;
+    Drive result_;
+
+    Interval interval_;
+    DrivenState y_, weight_, seen_, floor_;
+    DrivenGuards guards_, start_guards_;
+    double lowest_ = 0;
+    bool armed_ = true, turn_armed_ = true;
+    Method<DrivenState, Eigen::Dynamic, RightHandSide, Slopes> method_;
+    double step_ = 1e-4, last_step_ = 0;  // in theta; in time
+    double next_sample_ = 0;
+    double initial_balance_ = 0, largest_error_ = 0;
+    double last_switch_ = -1;
+    int switches_ = 0;
+};
+
+}  // namespace
+
+double RigEnergy::balance() const noexcept {
+    return contact.stored() + contact.dissipated() + contact.stiffness_change + kinetic + holding_spring +
+           holding_damper - pressing_work - dragging_work;
+}
+
+double RigEnergy::magnitude() const noexcept {
+    return std::abs(contact.normal_spring) + std::abs(contact.tangential_spring) + std::abs(contact.normal_damper) +
+           std::abs(contact.tangential_damper) + std::abs(contact.clutch) + std::abs(contact.stiffness_change) +
+           kinetic + holding_spring + holding_damper + std::abs(pressing_work) + std::abs(dragging_work);
+}
+
+Drive drive(const Rig& rig, const ContactParameters& laws) {
+    check(rig);
+    check(laws, "contact");
+    return Driver(rig, laws).run();
+}
+
+}  // namespace footfall
