@@ -1,0 +1,310 @@
+// The bristle of one contact over a time step of somebody else's simulator.
+//
+// Depth, its rate and the slip velocity V are those that the host holds over its step. The bristle then relaxes at the
+// rate K_t/D_t or so, for the paper's numbers within a quarter of a millisecond: an explicit step on `bristle_rate` is
+// unstable beyond 2 D_t/K_t. What is done here is stable for every step:
+//
+//   no load   udot = -(K_t/D_t) u                 an exponential, exact                                  (31)
+//   stick     udot = V, until |f_stick| = mu F_n  a straight line to a time that is a root of a quadratic    (32)
+//   slip      (27), (30), (31)                    Rodas3: order 3, L-stable, with sub-steps as the error asks
+//             with D_t = C_V = 0                  an arc on the cone, exact
+//
+// With V held, a contact goes at most through slip, stick and slip again. Rodas3 is a Rosenbrock method: Sandu, Verwer,
+// Blom, Spee, Carmichael & Potra 1997, Atmospheric Environment 31:3459. Its Jacobian is exact, from dual numbers.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/LU>
+
+#include "footfall/law/contact_law.hpp"
+#include "footfall/math/dual.hpp"
+#include "footfall/math/vector.hpp"
+
+namespace footfall {
+
+/// What a contact does over one time step.
+struct BristleStep {
+    Phase phase = Phase::flight;                                    ///< at the end of the step
+    double normal_force = 0;                                        ///< F_n [N], >= 0, held over the step
+    Vector2<double> bristle = Vector2<double>::Zero();              ///< u at the end of the step [m]
+    Vector2<double> mean_friction_force = Vector2<double>::Zero();  ///< F_f, its mean over the step [N]
+    double tangential_damper = 0;                                   ///< taken by the damper over the step [J]
+    double clutch = 0;                                              ///< taken by the clutch over the step [J]
+
+    /// What follows from something that is not a number.
+    [[nodiscard]] static BristleStep nothing() noexcept {
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        return {Phase::flight, nan, {nan, nan}, {nan, nan}, nan, nan};
+    }
+};
+
+/// A friction law with a bristle, advanced while depth, load and slip velocity are held.
+template <class Friction>
+class HeldFriction {
+public:
+    /// What does not change during the step: s = sqrt(z), phi_n = F_n / scale, scale = s^ScalePower.
+    struct Held {
+        double scale, phi_n;
+        Vector2<double> V;
+    };
+
+    HeldFriction(const Friction& friction, double tolerance)
+        : friction_(friction), dual_(friction.template cast<Slope>()), tolerance_(tolerance) {}
+
+    /// Advances step.bristle over dt from step.phase, and books what is taken.
+    void advance(const Held& held, double dt, BristleStep& step) const noexcept {
+        if (step.phase == Phase::flight || step.phase == Phase::recovering) {
+            recover(held, dt, step);
+        } else if (friction_.plastic()) {
+            follow_plastic(held, dt, step);
+        } else {
+            follow(held, dt, step);
+        }
+        if (!step.bristle.allFinite()) step = BristleStep::nothing();  // numbers beyond a double
+    }
+
+private:
+    using Slope = Dual<double, 2>;
+    using DualFriction = decltype(std::declval<const Friction&>().template cast<Slope>());
+
+    /// udot, F_f and the powers of damper and clutch: what is integrated.
+    using Rates = Eigen::Matrix<double, 6, 1>;
+    static constexpr int force_at = 2, damper_at = 4, clutch_at = 5;
+
+    void recover(const Held& held, double dt, BristleStep& step) const noexcept {
+        const Friction& friction = friction_;
+        const double stored = friction.stored_energy(held.scale, step.bristle);
+        if (friction.damping > 0) {
+            const double decay = friction.recovery_rate() * dt;
+            step.bristle *= std::exp(-decay);
+            step.tangential_damper = -stored * std::expm1(-2 * decay);
+        } else {  // released at once
+            step.bristle.setZero();
+            step.tangential_damper = stored;
+        }
+    }
+
+    // Damped: stick and slip ------------------------------------------------------------------------------------------
+
+    void follow(const Held& held, double dt, BristleStep& step) const noexcept {
+        const Friction& friction = friction_;
+        Vector2<double> impulse = Vector2<double>::Zero();
+        double left = dt, proposed = dt;
+        double size = std::max(step.bristle.norm(), friction.coefficient * held.phi_n / friction.stiffness);
+        bool holds = step.phase == Phase::stick;
+        for (int n = 0; left > 0 && n < most_sub_steps; ++n) {
+            if (holds) {
+                const double h = std::min(left, time_to_cone(held, step.bristle));
+                const Vector2<double> middle = step.bristle + 0.5 * h * held.V;
+                impulse += h * held.scale * friction.stick_force(held.V, middle);
+                step.tangential_damper += h * held.scale * friction.damping * held.V.squaredNorm();
+                step.bristle += h * held.V;
+                step.phase = Phase::stick;
+                holds = false;
+                left = h < left ? left - h : 0;
+                continue;
+            }
+            step.phase = Phase::slip;
+            const auto [h, change] = sub_step(held, step.bristle, std::min(left, proposed), dt, size, proposed);
+            step.bristle += change.template head<2>();
+            impulse += change.template segment<2>(force_at);
+            step.tangential_damper += change[damper_at];
+            step.clutch += change[clutch_at];
+            size = std::max(size, step.bristle.norm());
+            if (!step.bristle.allFinite()) return;
+            left = h < left ? left - h : 0;
+            holds = friction.coefficient > 0 && friction.cone_margin(held.phi_n, held.V, step.bristle) > 0;
+            if (holds) step.phase = Phase::stick;
+        }
+        step.mean_friction_force = impulse / dt;
+    }
+
+    /// When a bristle that sticks reaches the cone, |K_t u + D_t V + K_t V t| = mu phi_n [s].
+    [[nodiscard]] double time_to_cone(const Held& held, const Vector2<double>& u) const noexcept {
+        const Friction& friction = friction_;
+        const Vector2<double> w = -friction.stick_force(held.V, u), w_rate = friction.stiffness * held.V;
+        const double radius = friction.coefficient * held.phi_n;
+        const double a = w_rate.squaredNorm(), b = w.dot(w_rate), c = radius * radius - w.squaredNorm();
+        if (!(a > 0)) return std::numeric_limits<double>::infinity();
+        if (!(c > 0)) return b > 0 ? 0 : -2 * b / a;  // on the cone: it leaves, or crosses to the other side
+        const double root = std::sqrt(b * b + a * c);
+        return b > 0 ? c / (b + root) : (root - b) / a;  // of the two forms, the one that does not cancel
+    }
+
+    /// udot, forces and powers in slip, a little inside the cone as well. (27)-(31)
+    template <class AnyFriction, class S>
+    [[nodiscard]] static Eigen::Matrix<S, 6, 1> rates(const AnyFriction& friction, const Held& held,
+                                                      const Vector2<S>& u) noexcept {
+        const S scale(held.scale);
+        const auto t = friction.slip(scale, S(held.phi_n), S(0), Vector2<S>(S(held.V[0]), S(held.V[1])), u);
+        const Vector2<S> force = scale * t.force;
+        Eigen::Matrix<S, 6, 1> all;
+        all << t.bristle_rate, force, scale * friction.damping * t.bristle_rate.squaredNorm(),
+            -force.dot(t.clutch_velocity);
+        return all;
+    }
+
+    struct SubStep {
+        double h;
+        Rates change;
+    };
+
+    /// One accepted sub-step of at most `h`; `proposed` becomes the next. It ends where the clutch takes hold.
+    [[nodiscard]] SubStep sub_step(const Held& held, const Vector2<double>& u, double h, double dt, double size,
+                                   double& proposed) const noexcept {
+        const Friction& friction = friction_;
+        const Eigen::Matrix<Slope, 6, 1> at =
+            rates<DualFriction, Slope>(dual_, held, {Slope::variable(u[0], 0), Slope::variable(u[1], 1)});
+        Rates f;
+        Eigen::Matrix<double, 6, 2> J;
+        for (int i = 0; i < 6; ++i) {
+            f[i] = at[i].value;
+            J(i, 0) = at[i].gradient[0];
+            J(i, 1) = at[i].gradient[1];
+        }
+        const double margin = friction.cone_margin(held.phi_n, held.V, u);  // <= 0
+        const double cone = friction.coefficient * held.phi_n;
+        const double shortest = 1e-12 * dt;
+        while (true) {
+            const auto [change, error] = rodas3(held, u, h, f, J);
+            const Vector2<double> end = u + change.template head<2>();
+            const double bristle_size = std::max(size, end.norm());
+            const double force_size =
+                std::max(f.segment<2>(force_at).norm(), change.template segment<2>(force_at).norm() / h);
+            const double wrong = std::max(ratio(error.template head<2>().norm(), bristle_size),
+                                          ratio(error.template segment<2>(force_at).norm(), force_size * dt)) /
+                                 tolerance_;
+            const double factor = 0.9 / std::cbrt(std::max(wrong, 1e-3));
+            if (!(wrong <= 1) && h > shortest) {
+                h *= std::isfinite(wrong) ? std::clamp(factor, 0.1, 0.9) : 0.1;
+                continue;
+            }
+            const double overshoot = friction.cone_margin(held.phi_n, held.V, end);
+            if (overshoot > tolerance_ * cone && margin < 0 && h > shortest) {
+                h *= std::clamp(margin / (margin - overshoot), 0.05, 0.95);  // a secant to the cone
+                continue;
+            }
+            proposed = h * std::clamp(factor, 0.2, 5.0);
+            return {h, change};
+        }
+    }
+
+    static double ratio(double error, double size) noexcept { return error > 0 ? error / size : 0; }
+
+    /// The change of bristle and integrals over a step h, and the estimate of its error.
+    [[nodiscard]] std::array<Rates, 2> rodas3(const Held& held, const Vector2<double>& u, double h, const Rates& f,
+                                              const Eigen::Matrix<double, 6, 2>& J) const noexcept {
+        const double per_h = 1 / h, diagonal = 2 * per_h;  // gamma = 1/2
+        const Eigen::Matrix2d inverse = (diagonal * Eigen::Matrix2d::Identity() - J.template topRows<2>()).inverse();
+        // The integrals follow from the bristle: their columns of the Jacobian are zero.
+        const auto solve = [&](const Rates& right) {
+            Rates k;
+            k.template head<2>() = inverse * right.template head<2>();
+            k.template tail<4>() =
+                (right.template tail<4>() + J.template bottomRows<4>() * k.template head<2>()) / diagonal;
+            return k;
+        };
+        const auto at = [&](const Rates& change) {
+            return rates<Friction, double>(friction_, held, u + change.template head<2>());
+        };
+        const Rates k1 = solve(f);
+        const Rates k2 = solve(f + 4 * per_h * k1);
+        const Rates k3 = solve(at(2 * k1) + per_h * (k1 - k2));
+        const Rates k4 = solve(at(2 * k1 + k3) + per_h * (k1 - k2 - 8.0 / 3.0 * k3));
+        return {2 * k1 + k3 + k4, k4};
+    }
+
+    // D_t = C_V = 0 ---------------------------------------------------------------------------------------------------
+
+    /// The bristle goes straight inside |u| <= rho = mu phi_n / K_t and turns towards V on the rim: with theta the
+    /// angle between them, thetadot = -(|V|/rho) sin(theta), so tan(theta/2) decays exponentially.
+    void follow_plastic(const Held& held, double dt, BristleStep& step) const noexcept {
+        const Friction& friction = friction_;
+        const double rho = friction.coefficient * held.phi_n / friction.stiffness;
+        const double spring = held.scale * friction.stiffness;
+        Vector2<double>& u = step.bristle;
+        if (const double beyond = u.norm() - rho; beyond > 0) {  // it comes down to the rim at once, force on the cone
+            step.clutch = spring * rho * beyond;
+            step.tangential_damper = 0.5 * spring * beyond * beyond;
+            u = rho > 0 ? Vector2<double>(u * (rho / u.norm())) : Vector2<double>::Zero();
+        }
+        const double speed = held.V.norm();
+        const double straight = rho > 0 ? std::min(dt, time_to_cone(held, u)) : 0;
+        Vector2<double> integral = straight * (u + 0.5 * straight * held.V);  // of u
+        u += straight * held.V;
+        step.phase = Phase::stick;
+        if (straight < dt && speed > 0) {
+            step.phase = Phase::slip;
+            if (rho > 0) {
+                const Vector2<double> ahead = held.V / speed, aside(-ahead.y(), ahead.x());
+                const double x = speed * (dt - straight) / rho;
+                const double from = std::tan(0.5 * std::atan2(u.dot(aside), u.dot(ahead))), to = from * std::exp(-x);
+                const auto sine = [](double t) { return 2 * t / (1 + t * t); };
+                const auto cosine = [](double t) { return (1 - t * t) / (1 + t * t); };
+                const double along = rho / speed * (x + std::log((1 + to * to) / (1 + from * from)));
+                const double across = rho / speed * 2 * (std::atan(from) - std::atan(to));
+                integral += rho * (along * ahead + across * aside);
+                step.clutch += spring * rho * speed * along;
+                u = rho * (cosine(to) * ahead + sine(to) * aside);
+            }
+        }
+        step.mean_friction_force = -spring * integral / dt;
+    }
+
+    static constexpr int most_sub_steps = 100'000;
+
+    Friction friction_;
+    DualFriction dual_;
+    double tolerance_;
+};
+
+/// Advances bristles under one contact law. `Law` is a ContactLaw over double whose friction has a bristle or none.
+template <class Law>
+class BristleStepper {
+public:
+    /// `tolerance`, of each sub-step, is relative to the size of the bristle and of the force: from 1e-12 to 1e-2.
+    explicit BristleStepper(const Law& law, double tolerance = 1e-4) : law_(law), friction_(law.friction, tolerance) {}
+
+    /// The step from the bristle `u` [m] over `dt` [s], > 0, with depth [m], its rate [m/s] and the slip velocity V
+    /// [m/s] held. Where one of them is not finite, nor is what comes out.
+    [[nodiscard]] BristleStep operator()(double depth, double depth_rate, const Vector2<double>& V,
+                                         const Vector2<double>& u, double dt) const noexcept {
+        if (!(std::isfinite(depth) && std::isfinite(depth_rate) && V.allFinite() && u.allFinite()))
+            return BristleStep::nothing();
+        const double s = depth > 0 ? std::sqrt(depth) : 0;
+        BristleStep step{.bristle = u};
+        if (depth > 0) {
+            step.phase = law_.phase_of(s, depth_rate, V, u);
+            if (step.phase != Phase::recovering) step.normal_force = law_.normal.force(s, depth_rate).total();
+        }
+        if constexpr (Law::has_clutch) {
+            const double phi_n =
+                step.phase == Phase::flight ? 0 : law_.normal.template force<Law::ScalePower>(s, depth_rate).total();
+            friction_.advance({law_.friction.scale(s), phi_n, V}, dt, step);
+        }
+        return step;
+    }
+
+private:
+    struct Nothing {
+        Nothing(const auto&, double) noexcept {}
+    };
+    template <class Friction, bool has_clutch>
+    struct Advancing {
+        using type = HeldFriction<Friction>;
+    };
+    template <class Friction>
+    struct Advancing<Friction, false> {
+        using type = Nothing;
+    };
+
+    Law law_;
+    typename Advancing<decltype(Law::friction), Law::has_clutch>::type friction_;
+};
+
+}  // namespace footfall

@@ -1,0 +1,133 @@
+// The internal states of a friction law (friction/rate_friction.hpp) over a time step of somebody else's simulator.
+//
+// The load F_n and the slip velocity V are those that the host holds over its step. The states obey xdot = h(V, x),
+// which is integrated by the pair of order 3(2) of Bogacki & Shampine 1989 (Applied Mathematics Letters 2:321), with
+// sub-steps as its error asks: stable for every step of the host, since the error grows before an instability does.
+// Where the margin of a law that jumps falls to zero, a sub-step is made to end there, and the law jumps.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include "footfall/law/friction/rate_friction.hpp"
+
+namespace footfall {
+
+/// What friction does over one time step.
+struct FrictionStateStep {
+    Phase phase = Phase::flight;                                    ///< at the end of the step
+    Vector2<double> mean_friction_force = Vector2<double>::Zero();  ///< F_f, its mean over the step [N]
+    double tangential_damper = 0;                                   ///< taken by the damper over the step [J]
+    double clutch = 0;                                              ///< taken by the clutch over the step [J]
+};
+
+/// Advances the states of contacts under one friction law, of double, or AnyRateFriction.
+template <class Friction>
+class FrictionStateStepper {
+public:
+    /// `tolerance`, of each sub-step, is relative to the law's own sizes of its states: from 1e-12 to 1e-2.
+    explicit FrictionStateStepper(const Friction& friction, double tolerance = 1e-4)
+        : friction_(friction), tolerance_(tolerance) {}
+
+    /// Advances the states `x` of a contact over `dt` [s], > 0, under the load F_n [N] and the slip velocity V [m/s].
+    /// `phase` is stick or slip where the contact was loaded before, else flight. Without a load the states become
+    /// those of a new contact.
+    [[nodiscard]] FrictionStateStep operator()(Phase phase, double F_n, const Vector2<double>& V, std::span<double> x,
+                                               double dt) const noexcept {
+        FrictionStateStep step;
+        if (!(F_n > 0)) {
+            std::fill(x.begin(), x.end(), 0.0);
+            return step;
+        }
+        step.phase = phase == Phase::stick || phase == Phase::slip ? phase : friction_.first_phase();
+        Integrals total{};
+        double left = dt, proposed = dt;
+        bool entered = false;  // the phase has just begun, where the margin is often zero
+        for (int n = 0; left > 0 && n < most_sub_steps; ++n) {
+            if (!entered && !(friction_.margin(step.phase, V, x) > 0)) {
+                const Phase next = friction_.jump(step.phase, V, x);
+                entered = next != step.phase;
+                step.phase = next;
+            }
+            const double h = sub_step(step.phase, V, x, std::min(left, proposed), dt, total, proposed);
+            entered = false;
+            left = h < left ? left - h : 0;
+        }
+        step.mean_friction_force = F_n / dt * Vector2<double>(total[0], total[1]);
+        step.tangential_damper = F_n * total[2];
+        step.clutch = F_n * total[3];
+        return step;
+    }
+
+private:
+    using States = std::array<double, max_friction_states>;
+    using Integrals = std::array<double, 4>;  // of tau, of what the damper takes, of what is left for the clutch
+
+    struct Rates {
+        States x;
+        Integrals rest;
+    };
+
+    [[nodiscard]] Rates rates(Phase phase, const Vector2<double>& V, std::span<const double> x) const noexcept {
+        Rates r;
+        const RateResponse<double> t = friction_.respond(phase, V, x, std::span(r.x).first(x.size()));
+        r.rest = {t.traction.x(), t.traction.y(), t.damper_power, -t.traction.dot(V) - t.stored_rate - t.damper_power};
+        return r;
+    }
+
+    /// One accepted sub-step of at most `h`, returned; `proposed` becomes the next.
+    double sub_step(Phase phase, const Vector2<double>& V, std::span<double> x, double h, double dt, Integrals& total,
+                    double& proposed) const noexcept {
+        const std::size_t n = x.size();
+        const double shortest = 1e-12 * dt, before = friction_.margin(phase, V, x);
+        const Rates k1 = rates(phase, V, x);
+        States at{};
+        const auto moved = [&](double a, const Rates& r) {
+            for (std::size_t i = 0; i < n; ++i) at[i] = x[i] + h * a * r.x[i];
+            return rates(phase, V, std::span<const double>(at).first(n));
+        };
+        while (true) {
+            const Rates k2 = moved(0.5, k1), k3 = moved(0.75, k2);
+            for (std::size_t i = 0; i < n; ++i)
+                at[i] = x[i] + h * (2.0 / 9 * k1.x[i] + 1.0 / 3 * k2.x[i] + 4.0 / 9 * k3.x[i]);
+            const std::span<const double> end = std::span<const double>(at).first(n);
+            const Rates k4 = rates(phase, V, end);
+            double wrong = 0;
+            for (std::size_t i = 0; i < n; ++i) {
+                const double error =
+                    h * (-5.0 / 72 * k1.x[i] + 1.0 / 12 * k2.x[i] + 1.0 / 9 * k3.x[i] - 1.0 / 8 * k4.x[i]);
+                // A NaN counts as wrong.
+                const double relative = std::abs(error) / (tolerance_ * friction_.state_size(static_cast<int>(i)));
+                wrong = relative <= wrong ? wrong : relative;
+            }
+            const double factor = 0.9 / std::cbrt(std::max(wrong, 1e-3));
+            if (!(wrong <= 1) && h > shortest) {
+                h *= std::isfinite(wrong) ? std::clamp(factor, 0.1, 0.9) : 0.1;
+                continue;
+            }
+            const double after = friction_.margin(phase, V, end);
+            if (after < -tolerance_ * std::abs(before) && after < before && h > shortest) {
+                // A secant to where the phase ends; one that ends as it begins ends soon.
+                h *= before > 0 ? std::clamp(before / (before - after), 0.05, 0.95) : 0.05;
+                continue;
+            }
+            for (std::size_t j = 0; j < total.size(); ++j) {
+                total[j] += h * (2.0 / 9 * k1.rest[j] + 1.0 / 3 * k2.rest[j] + 4.0 / 9 * k3.rest[j]);
+            }
+            std::copy(end.begin(), end.end(), x.begin());
+            proposed = h * std::clamp(factor, 0.2, 5.0);
+            return h;
+        }
+    }
+
+    static constexpr int most_sub_steps = 1'000'000;
+
+    Friction friction_;
+    double tolerance_;
+};
+
+}  // namespace footfall

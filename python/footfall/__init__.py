@@ -1,0 +1,47 @@
+"""Compliant contact between spheres and the ground, with every joule accounted for.
+
+>>> import footfall
+>>> run = footfall.run(footfall.shipped_scenarios()["rolling-sphere"])
+>>> run.events[0].kind
+'touchdown'
+>>> run.dataset["normal_force"].attrs["units"]
+'N'
+"""
+
+from footfall import laws, studies
+from footfall._core import __version__
+from footfall.contact import FLIGHT, PHASES, RECOVERING, SLIP, STICK, ContactLaw, Response, Step
+from footfall.errors import Interrupted, InvalidInput, Problem, ScenarioError, TooExpensive
+from footfall.results import Cost, Energy, Event, Final, Impact, Run, State, open, run
+from footfall.scenario import Scenario, shipped_scenarios, to_toml
+
+__all__ = [
+    "FLIGHT",
+    "PHASES",
+    "RECOVERING",
+    "SLIP",
+    "STICK",
+    "ContactLaw",
+    "Cost",
+    "Energy",
+    "Event",
+    "Final",
+    "Impact",
+    "Interrupted",
+    "InvalidInput",
+    "Problem",
+    "Response",
+    "Run",
+    "Scenario",
+    "ScenarioError",
+    "State",
+    "Step",
+    "TooExpensive",
+    "__version__",
+    "laws",
+    "open",
+    "run",
+    "shipped_scenarios",
+    "studies",
+    "to_toml",
+]

@@ -1,0 +1,332 @@
+"""A run: everything it gives back, from one labelled dataset."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import xarray as xr
+
+from footfall import _core
+from footfall.errors import InvalidInput
+from footfall.scenario import Scenario, as_scenario
+
+Floats = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class State:
+    """A body and its contacts at one moment. Vectors are in the world's frame.
+
+    Of an event the contact is that of the event's sphere; :class:`Final` has those of all spheres.
+    """
+
+    position: Floats
+    """Of the centre of mass [m], shape (3,)."""
+    velocity: Floats
+    """Of the centre of mass [m/s], shape (3,)."""
+    orientation: Floats
+    """Unit quaternion w, x, y, z from the body's frame to the world's, shape (4,)."""
+    angular_velocity: Floats
+    """[rad/s], shape (3,)."""
+    depth: Any
+    """Indentation [m]; negative in flight: minus the gap."""
+    depth_rate: Any
+    """[m/s], > 0 while loading."""
+    normal_force: Any
+    """On the body, along the ground's normal [N], >= 0."""
+    friction_force: Floats
+    """On the body [N], shape (3,) or (sphere, 3)."""
+    slip_velocity: Floats
+    """Of the sphere's bottom point in the ground's plane [m/s], shape (3,) or (sphere, 3)."""
+    bristle: Floats
+    """Tangential deformation of the ground [m], shape (3,) or (sphere, 3)."""
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that happened to one contact."""
+
+    time: float
+    """[s]"""
+    kind: str
+    """touchdown, stick, slip, separation or recovered."""
+    sphere: int
+    """Index into the body's spheres."""
+    state: State
+    """At that time, in the phase that the event begins."""
+
+
+@dataclass(frozen=True)
+class Final(State):
+    """The end of a run. Contacts are those of all spheres, along the first axis."""
+
+    time: float
+    """[s]"""
+    phase: tuple[str, ...]
+    """Of each sphere: flight, stick, slip or recovering."""
+
+
+@dataclass(frozen=True)
+class Impact:
+    """One visit of a sphere to the ground. What had not happened by the end of the run is None."""
+
+    sphere: int
+    touchdown: float
+    """[s]"""
+    separation: float | None
+    """Last time before recovery that the normal force reached zero [s]."""
+    recovered: float | None
+    """When the indentation returned to zero [s]."""
+    speed_in: float
+    """Into the ground at touchdown [m/s]."""
+    speed_out: float | None
+    """Out of the ground at recovery [m/s]."""
+    restitution: float | None
+    """speed_out / speed_in."""
+    peak_normal_force: float
+    """[N]"""
+    peak_indentation: float
+    """[m]"""
+    stick_time: float
+    """Time spent sticking [s]."""
+
+
+@dataclass(frozen=True)
+class Energy:
+    """The account of energy at the end of a run [J]; its course is in the dataset's ``energy_...``."""
+
+    initial: float
+    """Total at the start."""
+    kinetic: float
+    potential: float
+    """Zero at the world's origin."""
+    normal_spring: float
+    """Held."""
+    tangential_spring: float
+    """Held: W, (1/2) K_t sqrt(z) |u|^2 for the paper's law."""
+    normal_damper: float
+    """Taken."""
+    tangential_damper: float
+    """Taken."""
+    clutch: float
+    """Taken."""
+    stiffness_change: float
+    """Taken by the changing tangential stiffness; negative: the law has made that much energy."""
+    tangential_spring_paper: float
+    """Azad & Featherstone 2010, (33): tangential_spring + stiffness_change."""
+    total: float
+    residual: float
+    """(total - initial) / scale."""
+    max_residual: float
+    """The largest residual over all steps, without its sign."""
+    scale: float
+    """The largest sum of all entries without their signs [J]."""
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What a run cost, all its attempts together."""
+
+    steps: int
+    """Accepted."""
+    rejected: int
+    """Rejected for their error."""
+    stiff_steps: int
+    """Those of ``steps`` that the implicit method took."""
+    evaluations: int
+    """Of the equations of motion."""
+    wall_seconds: float | None
+    """None where the run comes from a file, which does not keep it."""
+
+
+def _fields(kind: type) -> list[str]:
+    return [field.name for field in dataclasses.fields(kind)]
+
+
+def _none_if_missing(value: float) -> float | None:
+    return None if math.isnan(value) else value
+
+
+class Run:
+    """A run, as :func:`footfall.run` and :func:`footfall.open` give it."""
+
+    def __init__(self, dataset: xr.Dataset, wall_seconds: float | None = None) -> None:
+        self._dataset = dataset
+        self._wall_seconds = wall_seconds
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """Every sample, event and impact, labelled with units: what ``footfall run -o RUN.nc`` writes.
+
+        Dimensions: time, sphere, axis (x, y, z), quaternion (w, x, y, z), event, impact.
+        ``dataset.to_netcdf("run.nc")`` writes it; :func:`footfall.open` reads it.
+        """
+        return self._dataset
+
+    @property
+    def title(self) -> str:
+        """Of the scenario."""
+        return str(self._dataset.attrs["title"])
+
+    @cached_property
+    def scenario(self) -> Scenario:
+        """The scenario as it was read. ``dataset.attrs["tolerance"]`` is the tolerance that was used."""
+        return Scenario.parse(str(self._dataset.attrs["scenario"]))
+
+    @cached_property
+    def events(self) -> list[Event]:
+        """In the order of time."""
+        data = self._dataset
+        kinds = data["event_kind"].attrs["flag_meanings"].split()
+        columns = {name: data[f"event_{name}"].values for name in _fields(State)}
+        times, kind, sphere = (data[f"event_{name}"].values for name in ("time", "kind", "sphere"))
+        return [
+            Event(
+                float(times[i]),
+                kinds[kind[i]],
+                int(sphere[i]),
+                State(**{name: _number_or_view(values[i]) for name, values in columns.items()}),
+            )
+            for i in range(data.sizes["event"])
+        ]
+
+    @cached_property
+    def impacts(self) -> list[Impact]:
+        """In the order of touchdown."""
+        data = self._dataset
+        columns = {name: data[f"impact_{name}"].values for name in _fields(Impact)}
+        missing = {field.name for field in dataclasses.fields(Impact) if "None" in str(field.type)}
+        impacts = []
+        for i in range(data.sizes["impact"]):
+            values: dict[str, Any] = {name: column[i].item() for name, column in columns.items()}
+            for name in missing:
+                values[name] = _none_if_missing(values[name])
+            impacts.append(Impact(**values))
+        return impacts
+
+    @cached_property
+    def final(self) -> Final:
+        """The last moment of the run."""
+        last = self._dataset.isel(time=-1)
+        phases = last["phase"].attrs["flag_meanings"].split()
+        return Final(
+            **{name: last[name].values for name in _fields(State)},
+            time=float(last["time"]),
+            phase=tuple(phases[phase] for phase in last["phase"].values),
+        )
+
+    @cached_property
+    def energy(self) -> Energy:
+        """Where every joule is at the end, as ``footfall run --json`` has it."""
+        data = self._dataset
+        here = {
+            "initial": float(data["energy_total"][0]),
+            "max_residual": float(data.attrs["max_residual"]),
+            "scale": float(data.attrs["energy_scale"]),
+        }
+        rest = {name: float(data[f"energy_{name}"][-1]) for name in _fields(Energy) if name not in here}
+        return Energy(**here, **rest)
+
+    @cached_property
+    def cost(self) -> Cost:
+        """How much work it was."""
+        attrs = self._dataset.attrs
+        return Cost(
+            steps=int(attrs["steps"]),
+            rejected=int(attrs["rejected_steps"]),
+            stiff_steps=int(attrs["stiff_steps"]),
+            evaluations=int(attrs["evaluations"]),
+            wall_seconds=self._wall_seconds,
+        )
+
+    def __repr__(self) -> str:
+        sizes = self._dataset.sizes
+        return (
+            f"<footfall.Run {self.title!r}: {self.final.time:g} s, {sizes['time']} samples, {sizes['event']} events, "
+            f"{sizes['impact']} impacts, largest residual {self.energy.max_residual:.1e}>"
+        )
+
+
+def _number_or_view(value: Any) -> Any:
+    return float(value) if value.ndim == 0 else value
+
+
+def run(
+    scenario: str | os.PathLike[str] | Mapping[str, Any] | Scenario,
+    *,
+    tolerance: float | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> Run:
+    """Runs a scenario.
+
+    Parameters
+    ----------
+    scenario
+        A file, a dict nested as the file's tables, or a :class:`Scenario`.
+    tolerance
+        Relative error of a step, from 1e-14 to 1e-3, in place of the scenario's.
+    progress
+        Called some fifty times a second with the time reached [s]; where it returns False the run ends with
+        :class:`Interrupted`.
+
+    The run goes on without the GIL, and Ctrl-C (KeyboardInterrupt) ends it.
+
+    Raises
+    ------
+    ScenarioError
+        With everything that is wrong in the scenario, and where.
+    InvalidInput
+        Where the tolerance is out of range, or the scenario cannot be simulated.
+    TooExpensive
+        Where it would need more than ``solver.max_evaluations``.
+    OSError
+        Where the file cannot be read.
+
+    Examples
+    --------
+    >>> import footfall
+    >>> run = footfall.run(footfall.shipped_scenarios()["single-impact"])
+    >>> print(f"{run.impacts[0].restitution:.3f}")
+    0.620
+    """
+    if tolerance is not None:
+        tolerance = float(tolerance)
+    (attributes, variables), wall_seconds = _core.run(as_scenario(scenario)._core, tolerance, progress)
+    return Run(_dataset(attributes, variables), wall_seconds)
+
+
+def open(path: str | os.PathLike[str]) -> Run:  # noqa: A001
+    """Reads a run from a NetCDF file that ``footfall run -o`` or ``run.dataset.to_netcdf`` has written.
+
+    Raises
+    ------
+    InvalidInput
+        Where the file is not one of a run.
+    OSError
+        Where it cannot be read.
+    """
+    with xr.open_dataset(Path(path), engine="netcdf4") as file:
+        dataset = file.load()
+    if "footfall_version" not in dataset.attrs:
+        raise InvalidInput(f"{path}: is not a run of footfall: the attribute 'footfall_version' is missing")
+    return Run(dataset)
+
+
+def _dataset(attributes: dict[str, Any], variables: list[tuple[str, list[str], Any, dict[str, Any]]]) -> xr.Dataset:
+    """Arrays of C++, labelled. Nothing is copied."""
+    coordinates, data = {}, {}
+    for name, dimensions, values, attrs in variables:
+        if isinstance(values, list):
+            values = np.array(values, dtype=object)
+        # A variable named as its own dimension is that dimension's coordinate.
+        (coordinates if dimensions == [name] else data)[name] = (dimensions, values, attrs)
+    return xr.Dataset(data, coordinates, attributes)

@@ -1,0 +1,134 @@
+"""Scenarios: files, texts or dicts that say what to simulate."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import tomli_w
+
+from footfall import _core
+from footfall.errors import InvalidInput
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+
+class Scenario:
+    """What to simulate: read from a file, a text or a dict, and checked.
+
+    Make one with :meth:`load`, :meth:`parse` or :meth:`from_dict`; :func:`footfall.run` takes all of these directly.
+    """
+
+    __slots__ = ("_core",)
+
+    def __init__(self, core: _core.Scenario) -> None:
+        self._core = core
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Scenario:
+        """Reads a scenario file (TOML).
+
+        Raises
+        ------
+        ScenarioError
+            With everything that is wrong in it, and where.
+        OSError
+            Where it cannot be read.
+        """
+        return cls(_core.Scenario.load(Path(path)))
+
+    @classmethod
+    def parse(cls, text: str, name: str = "scenario") -> Scenario:
+        """Reads a scenario from its text; ``name`` stands for the file in messages. Raises ScenarioError."""
+        return cls(_core.Scenario.parse(text, name))
+
+    @classmethod
+    def from_dict(cls, tables: Mapping[str, Any], name: str = "scenario") -> Scenario:
+        """Reads a scenario from dicts nested as the file's tables. Raises ScenarioError; InvalidInput where a value is
+        of a kind that TOML does not have."""
+        return cls.parse(to_toml(tables), name)
+
+    @property
+    def name(self) -> str:
+        """The file, or what stands for it in messages."""
+        return self._core.name
+
+    @property
+    def title(self) -> str:
+        """As the scenario says; may be empty."""
+        return self._core.title
+
+    @property
+    def text(self) -> str:
+        """The TOML text as it was read."""
+        return self._core.text
+
+    @property
+    def simulation(self) -> _core.Simulation:
+        """What the text describes, in SI units with every default in place. To read; to change it, change the text or
+        the dict."""
+        return self._core.simulation
+
+    def to_dict(self) -> dict[str, Any]:
+        """The text as dicts, to change and give to :func:`footfall.run`. Defaults are not filled in."""
+        return tomllib.loads(self.text)
+
+    def __repr__(self) -> str:
+        return f"Scenario({self.name!r}, title={self.title!r})"
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _parse, (self.text, self.name)
+
+
+def _parse(text: str, name: str) -> Scenario:
+    return Scenario.parse(text, name)
+
+
+def to_toml(tables: Mapping[str, Any]) -> str:
+    """The TOML text of dicts nested as a scenario's tables. NumPy numbers and arrays may stand for numbers and lists.
+
+    Raises InvalidInput where a value is of a kind that TOML does not have, with the key.
+    """
+    return tomli_w.dumps(_plain(tables, ""))
+
+
+def _plain(value: Any, key: str) -> Any:
+    """The value as TOML knows it."""
+    if isinstance(value, Mapping):
+        for name in value:
+            if not isinstance(name, str):
+                raise InvalidInput(f"{key or 'scenario'}: the key {name!r} is not allowed: must be a string")
+        return {name: _plain(item, f"{key}.{name}" if key else name) for name, item in value.items()}
+    if isinstance(value, (np.ndarray, np.generic)):
+        return _plain(value.tolist(), key)
+    if isinstance(value, (list, tuple)):
+        return [_plain(item, f"{key}[{i}]") for i, item in enumerate(value)]
+    if isinstance(value, (bool, int, float, str)):
+        return value
+    raise InvalidInput(
+        f"{key}: {value!r} is not allowed: must be a number, a string, true or false, a list or a dict"
+    )
+
+
+def as_scenario(scenario: str | os.PathLike[str] | Mapping[str, Any] | Scenario) -> Scenario:
+    """What footfall.run takes, as a Scenario."""
+    if isinstance(scenario, Scenario):
+        return scenario
+    if isinstance(scenario, Mapping):
+        return Scenario.from_dict(scenario)
+    if isinstance(scenario, (str, os.PathLike)):
+        return Scenario.load(scenario)
+    raise TypeError(f"a path, a dict or a Scenario is wanted, not {type(scenario).__name__}")
+
+
+def shipped_scenarios() -> dict[str, Path]:
+    """The scenarios that come with the package, the paper's figures among them, by name."""
+    folder = Path(__file__).parent / "scenarios"
+    return {file.stem: file for file in sorted(folder.glob("*.toml"))}

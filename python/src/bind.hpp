@@ -1,0 +1,20 @@
+// The parts that footfall._core is made of. Each binds one thing; module.cpp calls them in order.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace footfall::python {
+
+namespace nb = nanobind;
+
+/// C++ errors become the exceptions of footfall.errors.
+void bind_errors(nb::module_& module);
+/// A class for every registered law, in the submodule `laws`.
+void bind_laws(nb::module_& module);
+/// The contact law over arrays.
+void bind_contact(nb::module_& module);
+void bind_scenario(nb::module_& module);
+void bind_run(nb::module_& module);
+void bind_studies(nb::module_& module);
+
+}  // namespace footfall::python

@@ -1,0 +1,280 @@
+// The contact law by itself over arrays of contacts, with the GIL released.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/variant.h>
+
+#include "bind.hpp"
+#include "footfall/law/any_normal.hpp"
+#include "footfall/law/any_rate_friction.hpp"
+#include "footfall/law/bristle_step.hpp"
+#include "footfall/law/contact_law.hpp"
+#include "footfall/law/friction_state_step.hpp"
+#include "footfall/law/registry.hpp"
+
+namespace footfall::python {
+namespace {
+
+// What Python gives has the right types and shapes already: footfall/contact.py sees to it.
+template <class Value>
+using Array = nb::ndarray<Value, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Input = Array<const double>;
+using Numbers = Array<double>;
+using Phases = Array<std::int8_t>;
+
+/// Values of every contact, or those of one for all of them; `width` numbers for each.
+template <class Value = double>
+struct Column {
+    const Value* data;
+    std::size_t step;
+
+    Column(const Array<const Value>& input, std::size_t width)
+        : data(input.data()), step(input.size() == width ? 0 : width) {}
+    [[nodiscard]] Value number(std::size_t i) const noexcept { return data[i * step]; }
+    [[nodiscard]] Vector2<double> vector(std::size_t i) const noexcept { return {data[i * step], data[i * step + 1]}; }
+    [[nodiscard]] const Value* at(std::size_t i) const noexcept { return data + i * step; }
+};
+
+struct Contacts {
+    Column<> depth, depth_rate, slip_velocity, bristle;
+    Column<std::int8_t> phase;  // as it was; laws that decide it themselves do not look
+};
+
+struct Responses {
+    std::int8_t* phase;
+    double *normal_force, *friction_force, *bristle_rate, *normal_spring, *tangential_spring, *normal_damper_power,
+        *tangential_damper_power, *clutch_power, *stiffness_change_power;
+};
+
+struct Steps {
+    std::int8_t* phase;
+    double *normal_force, *friction_force, *bristle, *tangential_damper, *clutch;
+};
+
+inline void put(const Vector2<double>& v, double* out) noexcept {
+    out[0] = v[0];
+    out[1] = v[1];
+}
+
+inline void put(const ContactResponse<double>& r, const Responses& out, std::size_t i) noexcept {
+    out.phase[i] = static_cast<std::int8_t>(r.phase);
+    out.normal_force[i] = r.normal_force;
+    put(r.friction_force, out.friction_force + 2 * i);
+    out.normal_spring[i] = r.normal_spring;
+    out.tangential_spring[i] = r.tangential_spring;
+    out.normal_damper_power[i] = r.normal_damper_power;
+    out.tangential_damper_power[i] = r.tangential_damper_power;
+    out.clutch_power[i] = r.clutch_power;
+    out.stiffness_change_power[i] = r.stiffness_change_power;
+}
+
+/// Lets Ctrl-C end long work, now and then.
+inline void check_signals(std::size_t i) {
+    constexpr std::size_t between = 1 << 14;
+    if ((i + 1) % between != 0) return;
+    const nb::gil_scoped_acquire gil;
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+}
+
+// Friction laws with a bristle, or with nothing
+// ------------------------------------------------------------------------
+
+template <class Law>
+void evaluate(const Law law, const Contacts in, const Responses out, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+        const ContactResponse<double> r =
+            law.evaluate(in.depth.number(i), in.depth_rate.number(i), in.slip_velocity.vector(i), in.bristle.vector(i));
+        put(r, out, i);
+        put(r.bristle_rate, out.bristle_rate + 2 * i);
+    }
+}
+
+template <class Law>
+void step(const Law& law, const Contacts& in, double dt, double tolerance, const Steps& out, std::size_t count) {
+    const BristleStepper stepper(law, tolerance);
+    for (std::size_t i = 0; i < count; ++i) {
+        check_signals(i);
+        const BristleStep r =
+            stepper(in.depth.number(i), in.depth_rate.number(i), in.slip_velocity.vector(i), in.bristle.vector(i), dt);
+        out.phase[i] = static_cast<std::int8_t>(r.phase);
+        out.normal_force[i] = r.normal_force;
+        put(r.mean_friction_force, out.friction_force + 2 * i);
+        put(r.bristle, out.bristle + 2 * i);
+        out.tangential_damper[i] = r.tangential_damper;
+        out.clutch[i] = r.clutch;
+    }
+}
+
+// Friction laws with internal states
+// -----------------------------------------------------------------------------------
+
+using StatesLaw = ContactLaw<AnyNormal<>, AnyRateFriction<>>;
+
+/// The phase of a contact, and the root of its depth.
+struct Touch {
+    Phase phase = Phase::flight;
+    double s = 0;
+};
+
+/// `was` is its phase before; where it was not loaded, its friction is that of a new contact.
+inline Touch touch(const StatesLaw& law, double depth, double depth_rate, std::int8_t was) noexcept {
+    if (!(depth > 0)) return {};
+    const double s = std::sqrt(depth);
+    const Phase first = law.first_phase(s, depth_rate);
+    const Phase before{static_cast<std::uint8_t>(was)};
+    const bool loaded = first != Phase::recovering && (before == Phase::stick || before == Phase::slip);
+    return {loaded && law.friction.first_phase() != Phase::slip ? before : first, s};
+}
+
+void evaluate(const StatesLaw& law, const Contacts& in, const Responses& out, std::size_t count) noexcept {
+    const auto states = static_cast<std::size_t>(law.friction.state_count());
+    for (std::size_t i = 0; i < count; ++i) {
+        const double rate = in.depth_rate.number(i);
+        const Touch at = touch(law, in.depth.number(i), rate, in.phase.number(i));
+        put(law.respond(at.phase, at.s, rate, in.slip_velocity.vector(i), {in.bristle.at(i), states},
+                        {out.bristle_rate + states * i, states}),
+            out, i);
+    }
+}
+
+void step(const StatesLaw& law, const Contacts& in, double dt, double tolerance, const Steps& out, std::size_t count) {
+    const FrictionStateStepper stepper(law.friction, tolerance);
+    const auto states = static_cast<std::size_t>(law.friction.state_count());
+    for (std::size_t i = 0; i < count; ++i) {
+        check_signals(i);
+        const double rate = in.depth_rate.number(i);
+        const Touch at = touch(law, in.depth.number(i), rate, in.phase.number(i));
+        const bool loaded = at.phase == Phase::stick || at.phase == Phase::slip;
+        const double F_n = loaded ? law.normal.force(at.s, rate).total() : 0;
+        const std::span<double> x(out.bristle + states * i, states);
+        std::copy_n(in.bristle.at(i), states, x.begin());
+        const FrictionStateStep r = stepper(at.phase, F_n, in.slip_velocity.vector(i), x, dt);
+        out.phase[i] = static_cast<std::int8_t>(loaded ? r.phase : at.phase);
+        out.normal_force[i] = F_n;
+        put(r.mean_friction_force, out.friction_force + 2 * i);
+        out.tangential_damper[i] = r.tangential_damper;
+        out.clutch[i] = r.clutch;
+    }
+}
+
+class Law {
+public:
+    Law(const NormalLaw& normal, const FrictionLaw& friction, std::optional<double> impact_speed)
+        : normal_(normal), friction_(friction), given_(normal) {
+        if (!impact_speed) return;
+        std::visit(
+            [&](auto& law) {
+                if constexpr (requires { law.begin_impact(*impact_speed); }) law.begin_impact(*impact_speed);
+            },
+            normal_);
+    }
+
+    [[nodiscard]] const NormalLaw& normal() const noexcept { return given_; }
+    [[nodiscard]] const FrictionLaw& friction() const noexcept { return friction_; }
+
+    /// How many numbers the bristle of a contact has, or the internal states that a law has in its place.
+    [[nodiscard]] int states() const noexcept {
+        return std::visit(
+            []<class Friction>(const Friction&) {
+                if constexpr (requires { Friction::states; }) {
+                    return Friction::states;
+                } else {
+                    return 2;
+                }
+            },
+            friction_);
+    }
+
+    template <class Work>
+    void visit(Work&& work) const {
+        std::visit(
+            [&]<class Friction>(const Friction& friction) {
+                if constexpr (requires { Friction::states; }) {
+                    const auto any = [](const auto& law) { return AnyNormal<>(law); };
+                    work(StatesLaw{std::visit(any, normal_), AnyRateFriction<>(friction)});
+                } else {
+                    std::visit([&](const auto& normal) { work(ContactLaw{normal, friction}); }, normal_);
+                }
+            },
+            friction_);
+    }
+
+private:
+    NormalLaw normal_;
+    FrictionLaw friction_;
+    NormalLaw given_;  // as it was before the impact began
+};
+
+}  // namespace
+
+void bind_contact(nb::module_& module) {
+    nb::list phases;
+    for (const Phase phase : {Phase::flight, Phase::stick, Phase::slip, Phase::recovering}) {
+        phases.append(nb::str(name_of(phase).data(), name_of(phase).size()));
+    }
+    module.attr("PHASES") = nb::tuple(phases);
+
+    const auto contacts_of = [](const Law& law, const Input& depth, const Input& depth_rate, const Input& slip_velocity,
+                                const Input& bristle, const Array<const std::int8_t>& phase) {
+        return Contacts{{depth, 1},
+                        {depth_rate, 1},
+                        {slip_velocity, 2},
+                        {bristle, static_cast<std::size_t>(law.states())},
+                        {phase, 1}};
+    };
+
+    nb::class_<Law>(module, "ContactLaw", "A normal law and a friction law over flat arrays.")
+        .def(nb::init<const NormalLaw&, const FrictionLaw&, std::optional<double>>(), nb::arg("normal"),
+             nb::arg("friction"), nb::arg("impact_speed").none())
+        .def_prop_ro("normal", &Law::normal)
+        .def_prop_ro("friction", &Law::friction)
+        .def_prop_ro("states", &Law::states)
+        .def(
+            "evaluate",
+            [contacts_of](const Law& self, const Input& depth, const Input& depth_rate, const Input& slip_velocity,
+                          const Input& bristle, const Array<const std::int8_t>& was, const Phases& phase,
+                          const Numbers& normal_force, const Numbers& friction_force, const Numbers& bristle_rate,
+                          const Numbers& normal_spring, const Numbers& tangential_spring,
+                          const Numbers& normal_damper_power, const Numbers& tangential_damper_power,
+                          const Numbers& clutch_power, const Numbers& stiffness_change_power) {
+                const Contacts in = contacts_of(self, depth, depth_rate, slip_velocity, bristle, was);
+                const Responses out{phase.data(),
+                                    normal_force.data(),
+                                    friction_force.data(),
+                                    bristle_rate.data(),
+                                    normal_spring.data(),
+                                    tangential_spring.data(),
+                                    normal_damper_power.data(),
+                                    tangential_damper_power.data(),
+                                    clutch_power.data(),
+                                    stiffness_change_power.data()};
+                const std::size_t count = phase.size();
+                const nb::gil_scoped_release free;
+                self.visit([&](const auto& law) { evaluate(law, in, out, count); });
+            },
+            nb::sig("def evaluate(self, *arrays: object) -> None"))
+        .def(
+            "step",
+            [contacts_of](const Law& self, const Input& depth, const Input& depth_rate, const Input& slip_velocity,
+                          const Input& bristle, const Array<const std::int8_t>& was, double dt, double tolerance,
+                          const Phases& phase, const Numbers& normal_force, const Numbers& friction_force,
+                          const Numbers& new_bristle, const Numbers& tangential_damper, const Numbers& clutch) {
+                const Contacts in = contacts_of(self, depth, depth_rate, slip_velocity, bristle, was);
+                const Steps out{phase.data(),       normal_force.data(),      friction_force.data(),
+                                new_bristle.data(), tangential_damper.data(), clutch.data()};
+                const std::size_t count = phase.size();
+                const nb::gil_scoped_release free;
+                self.visit([&](const auto& law) { step(law, in, dt, tolerance, out, count); });
+            },
+            nb::sig("def step(self, *arrays: object) -> None"));
+}
+
+}  // namespace footfall::python

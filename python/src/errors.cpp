@@ -1,0 +1,58 @@
+// C++ errors as Python exceptions, with the same message.
+#include <system_error>
+
+#include "bind.hpp"
+#include "footfall/io/scenario.hpp"
+#include "footfall/math/error.hpp"
+#include "footfall/simulate/run.hpp"
+
+namespace footfall::python {
+namespace {
+
+void raise(const char* type, const char* message) {
+    const nb::object exception = nb::module_::import_("footfall.errors").attr(type);
+    PyErr_SetString(exception.ptr(), message);
+}
+
+/// (line, column, message) of each problem goes with the exception.
+void raise(const ScenarioError& error) {
+    nb::list problems;
+    for (const ScenarioProblem& problem : error.problems()) {
+        problems.append(nb::make_tuple(problem.line, problem.column, nb::str(problem.message.c_str())));
+    }
+    const nb::object type = nb::module_::import_("footfall.errors").attr("ScenarioError");
+    const nb::object exception = type(nb::str(error.what()), problems);
+    PyErr_SetObject(type.ptr(), exception.ptr());
+}
+
+/// A file that cannot be read: OSError's own subclass for the reason, with our message.
+void raise(const std::system_error& error) {
+    const int number = error.code().value();
+    const nb::object os_error = nb::module_::import_("builtins").attr("OSError");
+    const nb::object type = nb::borrow(os_error(number, "").type());
+    const nb::object exception = type(nb::str(error.what()));
+    exception.attr("errno") = number;
+    PyErr_SetObject(type.ptr(), exception.ptr());
+}
+
+}  // namespace
+
+void bind_errors(nb::module_& /*module*/) {
+    nb::register_exception_translator([](const std::exception_ptr& thrown, void* /*payload*/) {
+        try {
+            std::rethrow_exception(thrown);
+        } catch (const ScenarioError& error) {
+            raise(error);
+        } catch (const InvalidInput& error) {
+            raise("InvalidInput", error.what());
+        } catch (const TooExpensive& error) {
+            raise("TooExpensive", error.what());
+        } catch (const Interrupted& error) {
+            raise("Interrupted", error.what());
+        } catch (const std::system_error& error) {
+            raise(error);
+        }
+    });
+}
+
+}  // namespace footfall::python

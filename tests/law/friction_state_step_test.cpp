@@ -1,0 +1,86 @@
+// The step of a friction law's states inside another simulator, against closed forms.
+#include "footfall/law/friction_state_step.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "footfall/law/any_rate_friction.hpp"
+
+namespace footfall::test {
+namespace {
+
+constexpr double load = 10, dt = 1e-3;
+
+// Dahl 1968 in one direction, exponent 1: x = (mu/sigma)(1 - exp(-sigma V t / mu)), F_f = -sigma x F_n.
+TEST(FrictionStateStep, FollowsDahlsExponential) {
+    const double sigma = 1e4, mu = 0.4, V = 0.5;
+    const AnyRateFriction<> law(DahlFriction<>{.stiffness = sigma, .coefficient = mu});
+    std::array<double, 2> x{};
+    const FrictionStateStep step =
+        FrictionStateStepper(law, 1e-8)(Phase::flight, load, {V, 0}, std::span(x).first(law.state_count()), dt);
+    const double decay = sigma * V * dt / mu;
+    EXPECT_NEAR(x[0], mu / sigma * -std::expm1(-decay), 1e-7 * mu / sigma);
+    // The mean of 1 - exp(-decay t/dt).
+    EXPECT_NEAR(step.mean_friction_force.x(), -load * mu * (1 + std::expm1(-decay) / decay), 1e-6 * load * mu);
+}
+
+// A stiff one: the state settles in a hundredth of the step, or a hundred-thousandth.
+TEST(FrictionStateStep, IsStableWhereAnExplicitStepIsNot) {
+    for (const double sigma : {1e6, 1e9}) {
+        const AnyRateFriction<> law(DahlFriction<>{.stiffness = sigma, .coefficient = 0.4});
+        std::array<double, 2> x{};
+        const FrictionStateStepper stepper(law);
+        FrictionStateStep step;
+        for (int i = 0; i < 10; ++i) step = stepper(step.phase, load, {0.03, 0.04}, x, dt);
+        EXPECT_NEAR(step.mean_friction_force.x(), -0.4 * load * 0.6, 1e-3 * load);
+        EXPECT_NEAR(step.mean_friction_force.y(), -0.4 * load * 0.8, 1e-3 * load);
+    }
+}
+
+// Haessig & Friedland's reset integrator: a spring up to its reach, then a constant force, dragged to and fro.
+TEST(FrictionStateStep, JumpsWhereTheLawDoes) {
+    const double sigma = 1e4, reach = 4e-5, V = 0.1;
+    const AnyRateFriction<> law(
+        ResetIntegratorFriction<>{.stiffness = sigma, .damping = 0, .reach = reach, .stiction = 0});
+    std::array<double, 2> x{};
+    const FrictionStateStepper stepper(law, 1e-9);
+    // It breaks away after reach / V = 0.4 ms of the 1 ms: the mean force is that of a ramp and a plateau.
+    FrictionStateStep step = stepper(Phase::flight, load, {V, 0}, x, dt);
+    EXPECT_EQ(step.phase, Phase::slip);
+    EXPECT_NEAR(x[0], reach, 1e-8 * reach);
+    EXPECT_NEAR(step.mean_friction_force.x(), -load * sigma * reach * (0.4 * 0.5 + 0.6), 1e-6 * load * sigma * reach);
+    // Turned round it sticks, crosses the middle after 0.4 ms and breaks away on the other side after 0.8 ms.
+    step = stepper(step.phase, load, {-V, 0}, x, dt);
+    EXPECT_EQ(step.phase, Phase::slip);
+    EXPECT_NEAR(x[0], -reach, 1e-8 * reach);
+    EXPECT_NEAR(step.mean_friction_force.x(), load * sigma * reach * 0.2, 1e-6 * load * sigma * reach);
+}
+
+TEST(FrictionStateStep, WorkIsStoredOrTaken) {
+    const AnyRateFriction<> law(LuGreFriction<>{.stiffness = 1e4,
+                                                .damping = 10,
+                                                .static_coefficient = 0.5,
+                                                .kinetic_coefficient = 0.4,
+                                                .stribeck_velocity = 0.05});
+    std::array<double, 2> x{1e-5, -2e-5};
+    const Vector2<double> V(0.01, 0.02);
+    const double before = load * law.stored(Phase::slip, x);
+    const FrictionStateStep step = FrictionStateStepper(law, 1e-9)(Phase::slip, load, V, x, dt);
+    const double after = load * law.stored(Phase::slip, x);
+    EXPECT_NEAR(-step.mean_friction_force.dot(V) * dt, after - before + step.tangential_damper + step.clutch,
+                1e-6 * (before + after));
+}
+
+TEST(FrictionStateStep, WithoutALoadTheContactIsNewAgain) {
+    const AnyRateFriction<> law(DahlFriction<>{.stiffness = 1e4, .coefficient = 0.4});
+    std::array<double, 2> x{1e-5, 1e-5};
+    const FrictionStateStep step = FrictionStateStepper(law)(Phase::slip, 0, {1, 0}, x, dt);
+    EXPECT_EQ(step.phase, Phase::flight);
+    EXPECT_EQ(x[0], 0);
+    EXPECT_EQ(step.mean_friction_force.norm(), 0);
+}
+
+}  // namespace
+}  // namespace footfall::test
