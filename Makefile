@@ -7,14 +7,14 @@ SOAK ?= 100000
 CLANG_FORMAT ?= clang-format-16
 CLANG_TIDY ?= clang-tidy-16
 
-SOURCE_FOLDERS := $(wildcard include src apps tests bench examples)
+SOURCE_FOLDERS := $(wildcard include src apps tests bench examples python)
 FORMATTED = $(shell find $(SOURCE_FOLDERS) -name '*.hpp' -o -name '*.cpp')
-BENCHES = $(filter-out soak,$(basename $(notdir $(wildcard bench/*.cpp))))
+BENCHES = $(filter-out soak fit_coverage,$(basename $(notdir $(wildcard bench/*.cpp))))
 DEMO := $(BUILD)/demo
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help deps build demo test bench soak format format-check lint layers docs-check sanitize install clean
+.PHONY: help deps build demo test bench soak fit-coverage format format-check lint layers docs-check sanitize install clean
 
 help:  ## This list
 	@echo "footfall: compliant contact between spheres and the ground, with every joule accounted for"
@@ -56,6 +56,9 @@ bench: build-all  ## Measure against ARKODE and plain loops; prints a table of r
 soak: build-all  ## Run SOAK random scenarios (100000) and check each
 	$(BUILD)/bench/soak --scenarios $(SOAK)
 
+fit-coverage: build-all  ## How often a fit's intervals hold the truth (about a minute)
+	$(BUILD)/bench/fit_coverage
+
 format:  ## Format every C++ file
 	@$(CLANG_FORMAT) -i $(FORMATTED)
 
@@ -70,6 +73,39 @@ lint: $(BUILD)/CMakeCache.txt  ## Run clang-tidy on the library and the command 
 
 docs-check: build  ## Run every example in README.md and docs/
 	@scripts/check-docs.py --build $(BUILD)
+
+.PHONY: friction-page
+friction-page: build  ## Draw the figures and measure the tables of docs/friction.md
+	@scripts/venv.sh $(BUILD)/friction-venv docs/friction/requirements.txt
+	$(BUILD)/friction-venv/bin/python docs/friction/make.py --footfall $(BUILD)/footfall
+
+# What `pip install .` builds, and its tests as a user's environment has them.
+WHEELS := $(BUILD)/wheels
+PYTHON ?= python3
+export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
+
+.PHONY: python python-test
+python:  ## Build the Python package as a wheel
+	@scripts/install-deps.sh --python
+	@rm -rf $(WHEELS) && mkdir -p $(WHEELS)
+	$(PYTHON) -m pip wheel --quiet --no-deps --wheel-dir $(WHEELS) -C build-dir=$(BUILD)/python .
+	@ls $(WHEELS)/*.whl
+
+python-test: python  ## Install the wheel in a clean environment and run its tests there
+	@rm -rf $(BUILD)/python-venv && $(PYTHON) -m venv $(BUILD)/python-venv
+	$(BUILD)/python-venv/bin/pip install --quiet "$$(ls $(WHEELS)/footfall-*.whl)[test]"
+	@scripts/test-wheel.sh $(BUILD)/python-venv/bin
+
+.PHONY: figures
+figures: python  ## Draw the paper's figures beside what its text says: build/figures/index.html
+	@rm -rf $(BUILD)/figures-venv && $(PYTHON) -m venv $(BUILD)/figures-venv
+	$(BUILD)/figures-venv/bin/pip install --quiet "$$(ls $(WHEELS)/footfall-*.whl)[plot]"
+	$(BUILD)/figures-venv/bin/python -m footfall.paper $(BUILD)/figures
+
+.PHONY: validation
+validation: build  ## Compare with published curves: docs/validation.md and its figures
+	@scripts/venv.sh $(BUILD)/validation-venv docs/validation/requirements.txt
+	@$(BUILD)/validation-venv/bin/python docs/validation/make.py --footfall $(BUILD)/footfall
 
 # Assertions are on here: no NDEBUG.
 sanitize:  ## Build and test with the address and undefined-behaviour sanitizers

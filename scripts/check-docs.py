@@ -91,7 +91,7 @@ class Runner:
         self.prefix = None
         self.printed = None
         # What a reader has at hand at the repository's root; what they make stays in the scratch folder.
-        for name in ("README.md", "docs", "examples", "scenarios"):
+        for name in ("README.md", "data", "docs", "examples", "scenarios"):
             (scratch / name).symlink_to(ROOT / name)
         (scratch / "build").mkdir()
         (scratch / "build" / "footfall").symlink_to(build / "footfall")

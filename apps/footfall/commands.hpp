@@ -13,7 +13,7 @@ namespace footfall::cli {
 struct ExitCode {
     static constexpr int success = 0;
     static constexpr int failure = 1;      ///< the run, or the writing of its results, failed
-    static constexpr int wrong_input = 2;  ///< the command line or the scenario cannot be used
+    static constexpr int wrong_input = 2;  ///< the command line, a scenario, a rig or data cannot be used
     static constexpr int signalled = 128;  ///< plus the signal's number: 130 after Ctrl-C
 };
 

@@ -20,7 +20,7 @@ constexpr const char* exit_codes =
     "Exit codes:\n"
     "  0    success\n"
     "  1    the run failed, or its results could not be written\n"
-    "  2    wrong input: the command line or the scenario\n"
+    "  2    wrong input: the command line, a scenario, a rig or data\n"
     "  130  interrupted (Ctrl-C); 143 terminated. Nothing is half written.\n";
 
 void say_error(std::string_view message) { fmt::print(stderr, "footfall: {}\n", message); }
