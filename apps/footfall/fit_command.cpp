@@ -47,12 +47,13 @@ FitStudy study_of(const FitArguments& arguments) {
     study.quasistatic = arguments.quasistatic;
     if (!arguments.sigma.empty()) {
         const bool restitution = study.data.kind == Measured::restitution;
-        const FitValue sigma = read("--sigma", arguments.sigma, restitution ? "1" : "N");
-        if (sigma.free || !(*sigma.value > 0)) throw InvalidInput("--sigma: expected a number greater than 0");
+        const FitValue given = read("--sigma", arguments.sigma, restitution ? "1" : "N");
+        const double sigma = given.free ? 0 : given.value.value_or(0);
+        if (!(sigma > 0)) throw InvalidInput("--sigma: expected a number greater than 0");
         if (!study.data.sigma.empty()) {
             throw InvalidInput(fmt::format("--sigma: {} has a column sigma already", arguments.data.string()));
         }
-        study.data.sigma.assign(study.data.x.size(), *sigma.value);
+        study.data.sigma.assign(study.data.x.size(), sigma);
     }
     if (arguments.sigma_is_true && study.data.sigma.empty()) {
         throw InvalidInput("--sigma-is-true: there is no sigma; give --sigma or a column of that name");

@@ -96,7 +96,8 @@ std::string as_json(const RestitutionArguments& arguments, const RestitutionResu
         const RestitutionCase& one = result.study.cases[i];
         Json entry{{"series", one.name}, {"law", law_text(one.law)}, {"mass", one.mass}};
         if (result.study.options.gravity > 0) {
-            entry["slowest_bounce"] = result.slowest_bounces[i] ? Json(*result.slowest_bounces[i]) : Json(nullptr);
+            const std::optional<double>& slowest = result.slowest_bounces[i];
+            entry["slowest_bounce"] = slowest ? Json(*slowest) : Json(nullptr);
         }
         if (arguments.straight) {
             entry["straight"] = nullptr;

@@ -1,5 +1,7 @@
 #include "footfall/simulate/budget.hpp"
 
+#include <stdexcept>
+
 #include <fmt/core.h>
 
 namespace footfall {
@@ -18,6 +20,12 @@ void stop_for_cost(double time, const RunOptions& options) {
         "the run needed more than {:g} evaluations of the equations of motion and had reached t = {:g} s of {:g} s; "
         "loosen the tolerance, shorten the run, or raise max_evaluations",
         options.max_evaluations, time, options.end_time));
+}
+
+void stop_for_overflow(double time) {
+    throw std::runtime_error(fmt::format(
+        "the run's numbers overflow at t = {:g} s: its parameters are too far from each other for double precision",
+        time));
 }
 
 }  // namespace footfall

@@ -1,4 +1,4 @@
-// The errors of a run that costs more than RunOptions::max_evaluations allows.
+// The errors that keep a run from its end: a cost above RunOptions::max_evaluations, numbers that overflow.
 #pragma once
 
 #include "footfall/simulate/run.hpp"
@@ -11,5 +11,8 @@ namespace footfall {
 
 /// Throws TooExpensive for a run that has spent its budget at `time` [s].
 [[noreturn]] void stop_for_cost(double time, const RunOptions& options);
+
+/// Throws std::runtime_error for a run whose numbers are no longer finite at `time` [s].
+[[noreturn]] void stop_for_overflow(double time);
 
 }  // namespace footfall

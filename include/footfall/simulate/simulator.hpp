@@ -689,6 +689,7 @@ private:
 
     void account() {
         const Ledger ledger = ledger_of(system_, y_);
+        if (!std::isfinite(ledger.total())) stop_for_overflow(static_cast<double>(y_[system_.layout().time()]));
         recorder_.account(ledger);
         see(ledger);
     }

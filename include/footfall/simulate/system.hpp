@@ -208,10 +208,11 @@ public:
         }
     }
 
-    /// s of contact i, never exactly zero, so that it can stand in a denominator.
+    /// s of contact i, never so near zero that a power of it in a denominator would overflow.
     [[nodiscard, gnu::always_inline]] S root_depth(const StateVector& y, int i) const noexcept {
         const S s = y[layout_.root_depth(i)];
-        return s == S(0) ? S(1e-150) : s;
+        const S least(1e-60);
+        return s < least && s > -least ? least : s;
     }
 
     /// g = dt/dsigma.
