@@ -74,6 +74,13 @@ lint: $(BUILD)/CMakeCache.txt  ## Run clang-tidy on the library and the command 
 docs-check: build  ## Run every example in README.md and docs/
 	@scripts/check-docs.py --build $(BUILD)
 
+.PHONY: docs
+docs:  ## Build the documentation as a site; warnings are errors
+	@scripts/venv.sh $(BUILD)/docs-venv docs/requirements.txt
+	$(BUILD)/docs-venv/bin/python -m sphinx --quiet --nitpicky --fail-on-warning --keep-going \
+	    -d $(BUILD)/docs/doctrees docs $(BUILD)/docs/html
+	@echo "The site:  $(BUILD)/docs/html/index.html"
+
 .PHONY: friction-page
 friction-page: build  ## Draw the figures and measure the tables of docs/friction.md
 	@scripts/venv.sh $(BUILD)/friction-venv docs/friction/requirements.txt

@@ -268,6 +268,8 @@ def run(
 ) -> Run:
     """Runs a scenario.
 
+    The run goes on without the GIL, and Ctrl-C (KeyboardInterrupt) ends it.
+
     Parameters
     ----------
     scenario
@@ -277,8 +279,6 @@ def run(
     progress
         Called some fifty times a second with the time reached [s]; where it returns False the run ends with
         :class:`Interrupted`.
-
-    The run goes on without the GIL, and Ctrl-C (KeyboardInterrupt) ends it.
 
     Raises
     ------

@@ -329,6 +329,7 @@ private:
             // Rounding has put a sphere that is leaving on the wrong side: it may land later in the step.
             if (theta >= S(0) && !lands()) theta = first_zero<S>(value, S(0));
             if (theta < S(0)) continue;
+            if (!lands() && at_end[j] < S(0)) theta = turning_point(j / per_contact);
             if (!lands()) {
                 armed_[index(j)] = false;
                 continue;
@@ -338,6 +339,18 @@ private:
                 first = {j, theta, slope(value, theta)};
         }
         return first;
+    }
+
+    // Where sphere i, which leaves the ground at the step's start, turns back to it: the landing of a hop too small to
+    // see.
+    [[nodiscard]] S turning_point(int i) const {
+        const auto rate = [&](S theta) { return depth_rate(method_.at(theta), i); };
+        const S at_start = rate(S(0)), at_end = rate(S(1));
+        if (!(at_start < S(0)) || !(at_end > S(0))) return S(0);
+        std::uintmax_t iterations = 60;
+        return boost::math::tools::toms748_solve(rate, S(0), S(1), at_start, at_end,
+                                                 boost::math::tools::eps_tolerance<S>(), iterations)
+            .second;
     }
 
     // A sphere in flight that turns round within the step may have been in the ground and out again. (The stages do not
