@@ -25,4 +25,7 @@ INSTANTIATE_TEST_SUITE_P(UndampedClutch, SeedThatOnceFailed, testing::Values(129
 // A linear law without damper lifting off in slip: a power of the vanishing depth overflowed.
 INSTANTIATE_TEST_SUITE_P(VanishingDepth, SeedThatOnceFailed, testing::Values(8430));
 
+// Implicit steps past the end of one of several contacts, where dt/dsigma has a pole.
+INSTANTIATE_TEST_SUITE_P(Pole, SeedThatOnceFailed, testing::Values(3986));
+
 }  // namespace

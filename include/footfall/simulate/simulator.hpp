@@ -256,7 +256,10 @@ private:
             const bool clipped = h < step_;
             if (system_.in_flight()) h = std::min(h, end_time_ - start_time);
             method_.step(h, weight_);
-            const S error = method_.error(weight_);
+            S error = method_.error(weight_);
+            // Past the end of one of several contacts g has a pole, and time may seem to run backwards.
+            if (Spheres != 1 && !(method_.end()[system_.layout().time()] >= start_time))
+                error = std::numeric_limits<S>::infinity();
             if (fixed_step_ > S(0) || error <= S(1)) {
                 method_.finish();
                 const S factor = method_.growth(error, refused);
