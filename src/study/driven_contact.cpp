@@ -265,7 +265,7 @@ private:
         const std::size_t n = static_cast<std::size_t>(layout_.state_count);
         const std::span<const S> states(y.data() + L::states, n);
         const std::span<S> state_rates(rate.data() + L::states, n);
-        const Answer<S> a = contact.respond(phase_, s, z_rate, S(load_rate(now)), V, states, state_rates);
+        Answer<S> a = contact.respond(phase_, s, z_rate, S(load_rate(now)), V, states, state_rates);
 
         for (S& r : state_rates) r *= g;
         rate[L::theta] = S(1);
