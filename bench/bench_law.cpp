@@ -197,7 +197,7 @@ bool compare(const std::string& name, const Contacts& contacts) {
         [&] {
             for (int k = 0; k < repeats; ++k) by_hand<WithEnergies>(parameters, contacts, hand_forces, hand_energies);
         }};
-    std::vector<double> seconds = bench::median_times(ways, 101);
+    std::vector<double> seconds = bench::median_times(ways, 51);
     for (double& s : seconds) s *= 1e9 / (static_cast<double>(n) * repeats);
     const double apart = std::max(difference(library_forces, hand_forces), difference(library_energies, hand_energies));
     fmt::print("{:<44}{:>12.2f}{:>12.2f}{:>8.2f}{:>14.1e}\n", name, seconds[0], seconds[1], seconds[0] / seconds[1],

@@ -135,7 +135,7 @@ void print_table(const std::string& title, const std::vector<Contestant>& contes
         outcomes.push_back(solver());
         timed.emplace_back([solver] { solver(); });
     }
-    const std::vector<double> seconds = bench::median_times(timed, 51);
+    const std::vector<double> seconds = bench::median_times(timed, 31);
     for (std::size_t j = 0; j < reached.size(); ++j) {
         fmt::print("{:<36}{:>10.1e}{:>11.1e}{:>11.1e}{:>8}{:>9}{:>11.3f}{:>8.2f}\n", contestants[reached[j]].name,
                    tolerances[j], outcomes[j].error, outcomes[j].residual, outcomes[j].steps, outcomes[j].evaluations,

@@ -50,9 +50,9 @@ struct ContactLaw {
                                                                   const Vector2<S>& V,
                                                                   const Vector2<S>& u) const noexcept {
         using std::sqrt;
-        const bool touches = depth > S(0);
-        const S s = touches ? S(sqrt(depth)) : S(0);
-        return respond(touches ? phase_of(s, depth_rate, V, u) : Phase::flight, s, depth_rate, V, u);
+        if (!(depth > S(0))) return respond(Phase::flight, S(0), depth_rate, V, u);
+        const S s = sqrt(depth);
+        return respond(phase_of(s, depth_rate, V, u), s, depth_rate, V, u);
     }
 
     /// The phase of a contact with z = s^2 > 0. (14), (26)
@@ -83,25 +83,23 @@ struct ContactLaw {
             }
             return r;
         }
-        const NormalForce<S> f = normal.force(s, z_rate);
+        const S scale = power<ScalePower>(s);
+        const NormalForce<S> phi = normal.template force<ScalePower>(s, z_rate);
         r.normal_spring = normal.stored_energy(s);
         if (phase == Phase::recovering) {
-            r.normal_damper_power = -f.elastic * z_rate;  // (14): the damper takes what the spring gives
+            r.normal_damper_power = -(scale * phi.elastic) * z_rate;  // (14): the damper takes what the spring gives
         } else {
-            r.normal_force = f.total();                      // (13)
-            r.normal_damper_power = f.dissipative * z_rate;  // (16)
+            r.normal_force = scale * phi.total();                      // (13)
+            r.normal_damper_power = scale * phi.dissipative * z_rate;  // (16)
         }
         if constexpr (Friction::has_bristle) {
-            const S scale = friction.scale(s);
             r.tangential_spring = friction.stored_energy(scale, u);
             r.stiffness_change_power = -friction.stiffening_power(s, z_rate, u);
             if (phase == Phase::recovering) {
                 r.bristle_rate = recovery(u);
             } else {
                 const auto t =
-                    phase == Phase::stick
-                        ? friction.stick(V, u)
-                        : friction.slip(scale, normal.template force<ScalePower>(s, z_rate).total(), phi_n_rate, V, u);
+                    phase == Phase::stick ? friction.stick(V, u) : friction.slip(scale, phi.total(), phi_n_rate, V, u);
                 r.friction_force = scale * t.force;
                 r.bristle_rate = t.bristle_rate;
                 r.clutch_power = -r.friction_force.dot(t.clutch_velocity);  // (29), (30)
@@ -121,8 +119,7 @@ struct ContactLaw {
 private:
     /// A bristle with no force on it; one without damping has no memory of its own. (31) with F_f = 0.
     [[nodiscard]] Vector2<S> recovery(const Vector2<S>& u) const noexcept {
-        if (!(friction.damping > S(0))) return Vector2<S>::Zero();
-        return -friction.recovery_rate() * u;
+        return (friction.damping > S(0) ? S(-friction.recovery_rate()) : S(0)) * u;
     }
 };
 

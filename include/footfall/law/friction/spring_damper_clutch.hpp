@@ -21,6 +21,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <string_view>
 
 #include "footfall/law/parameter.hpp"
@@ -64,7 +65,7 @@ struct SpringDamperClutch {
     /// Whether the clutch holds; one without a coefficient of friction never does. (26)
     [[nodiscard, gnu::always_inline]] bool holds(const S& phi_n, const Vector2<S>& V,
                                                  const Vector2<S>& u) const noexcept {
-        return coefficient > S(0) && !(cone_margin(phi_n, V, u) < S(0));
+        return !(cone_margin(phi_n, V, u) < S(0)) && coefficient > S(0);
     }
 
     [[nodiscard, gnu::always_inline]] FrictionResponse<S> stick(const Vector2<S>& V,
@@ -86,12 +87,12 @@ struct SpringDamperClutch {
         const Vector2<S> phi = stick_force(V, u);
         const S size = norm(phi);
         if (!(size > S(0))) return {phi, V, Vector2<S>::Zero()};
-        const S resistance = scale * D_t + C_V;
-        const Vector2<S> along = phi / size;
-        const Vector2<S> force = along * ((scale * D_t * mu * phi_n + C_V * size) / resistance);  // (27), (30), (31)
-        const Vector2<S> V_clutch = along * (-scale * (size - mu * phi_n) / resistance);
+        const S D_ts = scale * D_t;
+        const S per_size = S(1) / ((D_ts + C_V) * size);
+        const Vector2<S> force = phi * ((D_ts * mu * phi_n + C_V * size) * per_size);  // (27), (30), (31)
+        const Vector2<S> V_clutch = phi * (-scale * (size - mu * phi_n) * per_size);
         // Of (31) and (30), the one that does not cancel.
-        return {force, scale * D_t < C_V ? Vector2<S>(V - V_clutch) : Vector2<S>(-(force + K_t * u) / D_t), V_clutch};
+        return {force, D_ts < C_V ? Vector2<S>(V - V_clutch) : Vector2<S>(-(force + K_t * u) / D_t), V_clutch};
     }
 
     /// Positive while the clutch slips, and zero where it takes hold again.
@@ -122,7 +123,8 @@ struct SpringDamperClutch {
     static S norm(const Vector2<S>& v) noexcept {
         using std::sqrt;
         const S square = v.squaredNorm();
-        return square > S(0) ? S(sqrt(square)) : S(0);
+        if constexpr (std::floating_point<S>) return sqrt(square);
+        return square > S(0) ? S(sqrt(square)) : S(0);  // a dual number's root has no derivative at zero
     }
 
 protected:
