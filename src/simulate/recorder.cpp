@@ -100,4 +100,9 @@ Impact* Recorder::open_impact(int sphere) noexcept {
     return index < 0 ? nullptr : &run_.impacts[static_cast<std::size_t>(index)];
 }
 
+const Impact* Recorder::impact(int sphere) const noexcept {
+    const int index = open_[static_cast<std::size_t>(sphere)];
+    return index < 0 ? nullptr : &run_.impacts[static_cast<std::size_t>(index)];
+}
+
 }  // namespace footfall

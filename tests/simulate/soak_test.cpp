@@ -18,8 +18,8 @@ TEST_P(SeedThatOnceFailed, EndsFiniteWithItsLedgerClosedAndNothingGivenBack) {
 INSTANTIATE_TEST_SUITE_P(OnTheGround, SeedThatOnceFailed, testing::Values(4717, 6848, 10068, 22988, 23989, 44023));
 // Stretched bristles at touchdown, and beyond the cone of an undamped clutch.
 INSTANTIATE_TEST_SUITE_P(StretchedBristle, SeedThatOnceFailed, testing::Values(16637, 8434));
-// Motion along F_n = 0.
-INSTANTIATE_TEST_SUITE_P(Drag, SeedThatOnceFailed, testing::Values(8892, 13229));
+// Motion along F_n = 0. The last two took more than 2e7 evaluations: rounding lifted the sphere off again and again.
+INSTANTIATE_TEST_SUITE_P(Drag, SeedThatOnceFailed, testing::Values(8892, 13229, 13765, 6349));
 // Undamped clutches, whose stick and slip are tangent to each other at touchdown.
 INSTANTIATE_TEST_SUITE_P(UndampedClutch, SeedThatOnceFailed, testing::Values(12912, 22303, 24750, 28583, 73138, 73256));
 // A linear law without damper lifting off in slip: a power of the vanishing depth overflowed.

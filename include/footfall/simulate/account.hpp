@@ -34,19 +34,19 @@ template <class System>
     return ledger;
 }
 
-/// Everything at y.
+/// Everything at y, in the world's frame.
 template <class System>
-[[nodiscard]] Snapshot snapshot_of(const System& system, const typename System::StateVector& y) {
+[[nodiscard]] Snapshot snapshot_of(const System& system, const GroundFrame<typename System::S>& frame,
+                                   const typename System::StateVector& y) {
     using Layout = std::remove_cvref_t<decltype(system.layout())>;
     const auto motion = system.motion(y);
-    const auto& frame = system.frame();
     Snapshot shot;
     shot.time = static_cast<double>(y[system.layout().time()]);
-    shot.body.position = motion.position.template cast<double>();
-    shot.body.velocity = motion.velocity.template cast<double>();
-    shot.body.angular_velocity = motion.angular_velocity.template cast<double>();
-    const Eigen::Vector4d q = y.template segment<4>(Layout::orientation).template cast<double>().matrix();
-    shot.body.orientation = Eigen::Quaterniond(q);
+    shot.body.position = frame.to_world(motion.position);
+    shot.body.velocity = frame.to_world(motion.velocity);
+    shot.body.angular_velocity = frame.to_world(motion.angular_velocity);
+    const Eigen::Matrix<typename System::S, 4, 1> q = y.template segment<4>(Layout::orientation).matrix();
+    shot.body.orientation = frame.to_world(Quaternion<typename System::S>(q));
     const auto contacts = system.contacts(y);
     for (int i = 0; i < system.spheres(); ++i) {
         const auto& k = contacts[static_cast<std::size_t>(i)].kinematics;
@@ -54,13 +54,13 @@ template <class System>
         ContactSnapshot c;
         c.phase = system.phase(i);
         c.depth_rate = static_cast<double>(k.depth_rate);
-        c.slip_velocity = frame.to_world(k.slip).template cast<double>();
-        c.bristle = frame.to_world(system.bristle(y, i)).template cast<double>();
+        c.slip_velocity = frame.to_world(k.slip);
+        c.bristle = frame.to_world(system.bristle(y, i));
         if (system.touches(i)) {
             const auto s = y[system.layout().root_depth(i)];
             c.depth = static_cast<double>(s * s);
             c.normal_force = std::max(0.0, static_cast<double>(r.normal_force));
-            c.friction_force = frame.to_world(r.friction_force).template cast<double>();
+            c.friction_force = frame.to_world(r.friction_force);
         } else {
             c.depth = static_cast<double>(system.geometric_depth(motion, k, i));
         }

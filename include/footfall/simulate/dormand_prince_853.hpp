@@ -53,11 +53,14 @@ public:
         constexpr auto fifth = [] { return dormand_prince_853_table::error5; };
         constexpr auto third = [] { return dormand_prince_853_table::error3; };
         constexpr auto all = std::make_index_sequence<stages>{};
-        S five(0), three(0);
+        StateVector fives = weight, threes = weight;
         for (Eigen::Index c = 0; c < y0_.size(); ++c) {
-            five = larger(five, abs(weighted(fifth, c, all)) * weight[c]);
-            three = larger(three, abs(weighted(third, c, all)) * weight[c]);
+            fives[c] *= weighted(fifth, c, all);
+            threes[c] *= weighted(third, c, all);
         }
+        // Where a component is not a number, neither is the error.
+        const S five = fives.abs().template maxCoeff<Eigen::PropagateNaN>();
+        const S three = threes.abs().template maxCoeff<Eigen::PropagateNaN>();
         if (five == S(0)) return S(0);
         return abs(h_) * five * five / sqrt(five * five + S(0.01) * three * three);
     }
@@ -141,9 +144,6 @@ private:
         for (Eigen::Index c = 0; c < y0_.size(); ++c)
             y[c] = h_ * weighted(row, c, std::make_index_sequence<dormand_prince_853_table::dense_stages>{});
     }
-
-    // The larger of two, where a NaN is larger than any number.
-    static S larger(const S& a, const S& b) noexcept { return b > a || b != b ? b : a; }
 
     Eigen::Index motion_;
     StateVector y0_, y1_;

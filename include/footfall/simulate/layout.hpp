@@ -5,7 +5,8 @@
 //
 // Under a friction law with internal states (law/friction/rate_friction.hpp) these stand in place of the bristle u.
 //
-// L is the angular momentum about the centre of mass in the world's frame: constant in flight for every body.
+// Vectors are in the ground's frame. L is the angular momentum about the centre of mass: constant in flight for every
+// body.
 // s = sqrt(z) is a state of its own, so that nothing is singular at touchdown, and the forces need no position.
 // The motion does not depend on what stands behind it, so the methods integrate that part as plain integrals: no
 // stage needs it, and no Jacobian.

@@ -87,6 +87,8 @@ public:
         return stiff_ ? implicit_.at(theta, c) : explicit_.at(theta, c);
     }
 
+    /// Of the last step, over sigma.
+    [[nodiscard]] const S& size() const noexcept { return h_; }
     [[nodiscard]] const StateVector& start() const noexcept { return start_; }
     [[nodiscard]] const StateVector& end() const noexcept { return end_; }
     [[nodiscard]] StateVector start_rate() const {

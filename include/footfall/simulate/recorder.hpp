@@ -24,6 +24,9 @@ public:
     /// A depth and a force that contact `sphere` has reached.
     void reached(int sphere, double depth, double normal_force) noexcept;
 
+    /// The impact that contact `sphere` is in, or nothing.
+    [[nodiscard]] const Impact* impact(int sphere) const noexcept;
+
     /// The account after a step.
     void account(const Ledger& ledger) noexcept;
 

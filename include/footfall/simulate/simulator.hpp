@@ -12,6 +12,7 @@
 #include "footfall/simulate/budget.hpp"
 #include "footfall/simulate/guard_search.hpp"
 #include "footfall/simulate/method.hpp"
+#include "footfall/simulate/peaks.hpp"
 #include "footfall/simulate/recorder.hpp"
 #include "footfall/simulate/scales.hpp"
 #include "footfall/simulate/system.hpp"
@@ -30,6 +31,7 @@ public:
 
     Simulator(const Simulation& simulation, std::vector<Law> laws)
         : options_(simulation.options),
+          frame_(simulation.ground.normal),
           system_(simulation.body, simulation.ground, simulation.gravity, std::move(laws)),
           scales_(system_, simulation.body, simulation.gravity, simulation.options.tolerance),
           recorder_(simulation.options.sample_period, simulation.options.end_time),
@@ -95,15 +97,14 @@ private:
         const Eigen::Matrix3d R = b.orientation.toRotationMatrix();
         const Eigen::Vector3d momentum = R * simulation.body.inertia * R.transpose() * b.angular_velocity;
         y_ = StateVector::Zero(layout.size());
-        y_.template segment<3>(system_.layout().position()) = b.position.cast<S>().array();
-        y_.template segment<3>(Layout::velocity) = b.velocity.cast<S>().array();
-        y_.template segment<3>(Layout::momentum) = momentum.cast<S>().array();
-        y_.template segment<4>(Layout::orientation) = b.orientation.coeffs().cast<S>().array();
+        y_.template segment<3>(layout.position()) = frame_.to_ground(b.position).array();
+        y_.template segment<3>(Layout::velocity) = frame_.to_ground(b.velocity).array();
+        y_.template segment<3>(Layout::momentum) = frame_.to_ground(momentum).array();
+        y_.template segment<4>(Layout::orientation) = frame_.to_ground(b.orientation).coeffs().array();
         const int guards = per_contact * layout.spheres;
         guards_ = lowest_ = scratch_guards_ = Guards::Ones(guards);
         armed_.assign(index(guards), true);
         stalls_.resize(index(layout.spheres));
-        rises_.assign(index(layout.spheres), false);
         silent_until_.assign(index(guards), S(-1));
         scratch_ = y_;
         extent_ = std::abs(simulation.ground.height);
@@ -211,7 +212,7 @@ private:
         method_.begin(y_);
         guards_ = scratch_guards_;
         scales_.weights(y_, weight_);
-        for (int i = 0; i < system_.spheres(); ++i) rises_[index(i)] = force_rises(y_, method_.start_rate(), i);
+        peaks_.begin(system_, y_, method_.start_rate(), piece_of_step(), recorder_);
     }
 
     void advance() {
@@ -439,7 +440,7 @@ private:
                 }
                 armed_[index(guard)] = false;
                 if (system_.drags(i)) {
-                    system_.set_drags(i, false);
+                    set_drags(i, false);
                     enter_contact(i);
                 } else {
                     const bool drags = has_border_motion(i);
@@ -448,12 +449,12 @@ private:
                     } else if (!drags) {
                         enter_contact(i);
                     }
-                    system_.set_drags(i, drags);
+                    set_drags(i, drags);
                 }
                 break;
             case clutch_guard:
                 if (system_.drags(i)) {
-                    system_.set_drags(i, false);
+                    set_drags(i, false);
                     armed_[index(i * per_contact + load_guard)] = false;
                 } else if (Law::has_states) {
                     jump(i);
@@ -472,6 +473,14 @@ private:
                 armed_[index(i * per_contact + load_guard)] = false;
                 break;
         }
+    }
+
+    // A contact that drags does not count in g: the next step stays as long in time.
+    void set_drags(int i, bool drags) {
+        if (system_.drags(i) == drags) return;
+        const S before = system_.time_rate(y_);
+        system_.set_drags(i, drags);
+        step_ *= before / system_.time_rate(y_);
     }
 
     // A viscous clutch loses its hold at F_n = 0, so that friction jumps there. Whether either phase pushes the motion
@@ -619,7 +628,7 @@ private:
 
     void lift_off(int i) {
         if (system_.phase(i) != Phase::recovering) enter_recovering(i);
-        system_.set_drags(i, false);
+        set_drags(i, false);
         system_.set_phase(i, Phase::flight);
         y_[system_.layout().root_depth(i)] = S(0);
         recorder_.event(EventKind::recovered, i, snapshot(y_));
@@ -700,7 +709,7 @@ private:
             apart += system_.geometric_depth(m, system_.kinematics(m, i), i) - s * s;
             ++touching;
         }
-        y.template segment<3>(system_.layout().position()) += (system_.frame().n * (apart / S(touching))).array();
+        y[system_.layout().position() + 2] += apart / S(touching);
     }
 
     void account() {
@@ -711,7 +720,7 @@ private:
     }
     void see(const Ledger& ledger) { scales_.see(y_, ledger.kinetic + ledger.contact.stored()); }
 
-    [[nodiscard]] Snapshot snapshot(const StateVector& y) const { return snapshot_of(system_, y); }
+    [[nodiscard]] Snapshot snapshot(const StateVector& y) const { return snapshot_of(system_, frame_, y); }
 
     // Samples and peaks inside the step just taken, which reaches from one time to another.
     void record_inside(const S& from, const S& to) {
@@ -727,7 +736,7 @@ private:
             recover_in_flight(y, due - from);
             recorder_.sample(snapshot(y));
         }
-        record_peaks(prepare);
+        peaks_.pass(system_, method_, piece_of_step(), recorder_, prepare);
     }
 
     [[nodiscard]] S theta_of(const S& time, const S& from, const S& to) const {
@@ -742,65 +751,13 @@ private:
         return (r.first + r.second) / S(2);
     }
 
-    template <class Prepare>
-    void record_peaks(Prepare&& prepare) {
-        if (system_.in_flight()) return;
-        const Motion m0 = system_.motion(method_.start()), m1 = system_.motion(method_.end());
-        for (int i = 0; i < system_.spheres(); ++i) {
-            if (!system_.touches(i)) continue;
-            note_reached(method_.start(), i);
-            note_reached(method_.end(), i);
-            const bool rose = rises_[index(i)];
-            rises_[index(i)] = force_rises(method_.end(), method_.end_rate(), i);
-            if (rose && !rises_[index(i)]) {
-                const S d(1e-4);  // of the step
-                const auto force = [&](S theta) { return normal_force(method_.at(theta), i); };
-                note_highest(prepare, i, [&](S theta) { return force(theta + d) - force(theta - d); });
-            }
-            const bool sank = system_.kinematics(m0, i).depth_rate > S(0);
-            const bool sinks = system_.kinematics(m1, i).depth_rate > S(0);
-            if (sank && !sinks) note_highest(prepare, i, [&](S theta) { return depth_rate(method_.at(theta), i); });
-        }
-    }
-
-    // Notes contact i where a rate falls through zero inside the step.
-    template <class Prepare, class F>
-    void note_highest(Prepare&& prepare, int i, F&& rate) {
-        prepare();
-        const S at_start = rate(S(0)), at_end = rate(S(1));
-        if (!(at_start > S(0)) || !(at_end < S(0))) return;  // it is at an end, which is noted
-        std::uintmax_t iterations = 50;
-        const auto zero = boost::math::tools::toms748_solve(
-            rate, S(0), S(1), at_start, at_end,
-            boost::math::tools::eps_tolerance<S>(std::numeric_limits<S>::digits / 2), iterations);
-        note_reached(method_.at((zero.first + zero.second) / S(2)), i);
-    }
-
-    void note_reached(const StateVector& y, int i) {
-        const S s = root_depth(y, i);
-        recorder_.reached(i, static_cast<double>(s * s), static_cast<double>(normal_force(y, i)));
-    }
-    [[nodiscard]] S root_depth(const StateVector& y, int i) const { return y[system_.layout().root_depth(i)]; }
-    [[nodiscard]] S normal_force(const StateVector& y, int i) const {
-        return system_.response(y, system_.kinematics(system_.motion(y), i), i).normal_force;
-    }
-
-    // Whether contact i's normal force grows along the motion.
-    [[nodiscard]] bool force_rises(const StateVector& y, const StateVector& rate, int i) const {
-        if (!system_.touches(i)) return false;
-        const auto force = [&](const StateVector& at) {
-            const S z_rate = system_.kinematics(system_.motion(at), i).depth_rate;
-            return system_.law(i).normal.force(root_depth(at, i), z_rate).total();
-        };
-        const StateVector d = rate * (S(1e-4) * step_);
-        return force(y + d) > force(y - d);
-    }
+    [[nodiscard]] S piece_of_step() const { return S(1e-4) * step_; }
 
     // A body that comes to lie on the ground swings on its contact at about sqrt(g / static depth), and a radian of
     // that costs one step. It may never come to lie, or come to rest so fully that the implicit method strides over it,
     // so only a run that is out of reach by far is refused before it starts.
     void refuse_the_hopeless() const {
-        const double pressing = -static_cast<double>(system_.frame().n.dot(system_.gravity()));
+        const double pressing = -static_cast<double>(system_.gravity().z());
         if (!(pressing > 0)) return;
         const double rate = std::sqrt(pressing / scales_.static_depth());
         const double estimate = method_.stages * rate * options_.end_time;
@@ -819,6 +776,7 @@ private:
     static constexpr double coincidence = 1e-9;  // of a step: crossings nearer than this are one
 
     RunOptions options_;
+    GroundFrame<S> frame_;
     SystemType system_;
     Scales<SystemType> scales_;
     Recorder recorder_;
@@ -831,7 +789,7 @@ private:
     // A guard that has just been handled starts on its zero; it is looked at again once it has been positive.
     std::vector<bool> armed_;
     std::vector<S> silent_until_;
-    std::vector<bool> rises_;
+    Peaks<SystemType> peaks_;
     DualSystem dual_system_;
     Method<StateVector, Layout::motion_at_compile_time, RightHandSide, JacobianMatrix> method_;
 

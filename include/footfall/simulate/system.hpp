@@ -2,7 +2,11 @@
 //
 // The independent variable is sigma, with dt = g dsigma. In flight g = 1. With contacts, 1/g = sum of 1/s_i over the
 // spheres that touch, s_i = sqrt(z_i): for one contact dt = s dsigma, and nothing is singular where s = 0. The
-// force starts as sqrt(t - t0), but it is polynomial in sigma.
+// force starts as sqrt(t - t0), but it is polynomial in sigma. A contact that is dragged along F_n = 0 does not count:
+// it neither begins nor ends there, and s falls as an exponential of time. Its depth follows from F_n = 0, not from the
+// body's velocity, whose rounding would be all that is left of it.
+//
+// All vectors are in the ground's frame (ground_frame.hpp): the normal is the third axis.
 #pragma once
 
 #include <array>
@@ -14,27 +18,10 @@
 #include "footfall/law/contact_law.hpp"
 #include "footfall/math/dual.hpp"
 #include "footfall/math/vector.hpp"
+#include "footfall/simulate/ground_frame.hpp"
 #include "footfall/simulate/layout.hpp"
 
 namespace footfall {
-
-/// Two unit vectors that complete the ground's normal to a right-handed frame (t1, t2, n). For n = z they are x and y.
-template <class S>
-struct GroundFrame {
-    Vector3<S> t1, t2, n;
-
-    explicit GroundFrame(const Eigen::Vector3d& normal) : n(normal.cast<S>()) {
-        // The world axis nearest to the plane, x where there is a choice, projected onto it.
-        const bool x_is_steep = std::abs(normal.x()) > 0.9;
-        const Eigen::Vector3d axis = x_is_steep ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
-        t1 = axis.cast<S>();
-        t1 = (t1 - n * n.dot(t1)).normalized();
-        t2 = n.cross(t1);
-    }
-
-    [[nodiscard, gnu::always_inline]] Vector2<S> to_plane(const Vector3<S>& v) const { return {t1.dot(v), t2.dot(v)}; }
-    [[nodiscard, gnu::always_inline]] Vector3<S> to_world(const Vector2<S>& v) const { return t1 * v.x() + t2 * v.y(); }
-};
 
 /// One body on one plane, all contacts under the same kinds of law. `Law` is a ContactLaw over the scalar S.
 template <class Law, int Spheres>
@@ -52,9 +39,9 @@ public:
     System(const Body& body, const Ground& ground, const Eigen::Vector3d& gravity, std::vector<Law> laws)
         : layout_{static_cast<int>(body.spheres.size()), friction_states_of(laws)},
           mass_(body.mass),
+          inverse_mass_(S(1) / mass_),
           inverse_inertia_(body.inertia.inverse().cast<S>()),
-          gravity_(gravity.cast<S>()),
-          frame_(ground.normal),
+          gravity_(GroundFrame<S>(ground.normal).to_ground(gravity)),
           height_(ground.height),
           laws_(std::move(laws)) {
         isotropic_ = body.inertia.isApprox(Eigen::Matrix3d(body.inertia(0, 0) * Eigen::Matrix3d::Identity()), 0.0);
@@ -72,7 +59,6 @@ public:
     }
 
     [[nodiscard]] const LayoutType& layout() const noexcept { return layout_; }
-    [[nodiscard]] const GroundFrame<S>& frame() const noexcept { return frame_; }
     [[nodiscard]] const Vector3<S>& gravity() const noexcept { return gravity_; }
     [[nodiscard]] const Law& law(int i) const noexcept { return laws_[index(i)]; }
     [[nodiscard]] const S& radius(int i) const noexcept { return radii_[index(i)]; }
@@ -106,8 +92,7 @@ public:
 
     /// How a sphere moves against the ground.
     struct Kinematics {
-        Vector3<S> center;  ///< from the centre of mass to the sphere's centre, world [m]
-        Vector3<S> arm;     ///< from the centre of mass to the contact point, world [m]: the lever arm is r
+        Vector3<S> center;  ///< from the centre of mass to the sphere's centre [m]
         S depth_rate;       ///< zdot [m/s]
         Vector2<S> slip;    ///< V_sph in the ground's plane [m/s]. (36)
     };
@@ -133,17 +118,24 @@ public:
 
     [[nodiscard, gnu::always_inline]] Kinematics kinematics(const Motion& m, int i) const noexcept {
         Kinematics k;
-        k.center = oriented_ ? Vector3<S>(m.rotation * centers_[index(i)]) : Vector3<S>(Vector3<S>::Zero());
-        k.arm = k.center - frame_.n * radius(i);
-        const Vector3<S> at_contact = m.velocity + m.angular_velocity.cross(k.arm);  // (36)
-        k.depth_rate = -frame_.n.dot(at_contact);
-        k.slip = frame_.to_plane(at_contact);
+        k.center = Vector3<S>::Zero();
+        // The lever arm is r, straight down from the centre.
+        const S& r = radius(i);
+        Vector3<S> at_contact = m.velocity;  // (36)
+        at_contact.x() -= r * m.angular_velocity.y();
+        at_contact.y() += r * m.angular_velocity.x();
+        if (oriented_) {
+            k.center = m.rotation * centers_[index(i)];
+            at_contact += m.angular_velocity.cross(k.center);
+        }
+        k.depth_rate = -at_contact.z();
+        k.slip = at_contact.template head<2>();
         return k;
     }
 
     /// z from the body's position: negative where the sphere is above the ground [m].
     [[nodiscard]] S geometric_depth(const Motion& m, const Kinematics& k, int i) const noexcept {
-        return radius(i) + height_ - frame_.n.dot(m.position + k.center);
+        return radius(i) + height_ - (m.position.z() + k.center.z());
     }
 
     /// The bristle u of contact i, or what a friction law with internal states shows in its place [m].
@@ -218,11 +210,11 @@ public:
     /// g = dt/dsigma.
     [[nodiscard, gnu::always_inline]] S time_rate(const StateVector& y) const noexcept {
         if constexpr (Spheres == 1) {
-            return touches(0) ? root_depth(y, 0) : S(1);
+            return touches(0) && !drags(0) ? root_depth(y, 0) : S(1);
         } else {
             S sum(0);
             for (int i = 0; i < spheres(); ++i)
-                if (touches(i)) sum += S(1) / root_depth(y, i);
+                if (touches(i) && !drags(i)) sum += S(1) / root_depth(y, i);
             return sum == S(0) ? S(1) : S(1) / sum;
         }
     }
@@ -243,11 +235,6 @@ private:
     /// The forces of all contacts, and their torque about the centre of mass.
     struct Action {
         Vector3<S> force = Vector3<S>::Zero(), torque = Vector3<S>::Zero();
-
-        void add(const Vector3<S>& f, const Vector3<S>& arm) noexcept {
-            force += f;
-            torque += arm.cross(f);
-        }
     };
 
     static constexpr std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
@@ -285,8 +272,9 @@ private:
             Contact& c = contacts[index(i)];
             c.kinematics = kinematics(m, i);
             if (!touches(i)) continue;
+            if (drags(i)) c.kinematics.depth_rate = unloading_rate(root_depth(y, i), c.kinematics.depth_rate, i);
             c.response = response(y, c.kinematics, i, c.state_rates);
-            total.add(force(c.response), c.kinematics.arm);
+            add(total, c.response, c.kinematics, i);
             if constexpr (Law::has_clutch) {
                 drag = drag || drags(i);
                 plastic = plastic || (phase(i) == Phase::slip && law(i).friction.plastic());
@@ -334,11 +322,16 @@ private:
                             });
     }
 
-    [[nodiscard, gnu::always_inline]] Vector3<S> force(const ContactResponse<S>& r) const noexcept {
-        return frame_.n * r.normal_force + frame_.to_world(r.friction_force);
+    [[gnu::always_inline]] void add(Action& total, const ContactResponse<S>& r, const Kinematics& k,
+                                    int i) const noexcept {
+        const Vector3<S> f(r.friction_force.x(), r.friction_force.y(), r.normal_force);
+        total.force += f;
+        total.torque.x() += radius(i) * f.y();
+        total.torque.y() -= radius(i) * f.x();
+        if (oriented_) total.torque += k.center.cross(f);
     }
     [[nodiscard, gnu::always_inline]] Vector3<S> acceleration(const Action& total) const noexcept {
-        return gravity_ + total.force / mass_;  // (34)
+        return gravity_ + total.force * inverse_mass_;  // (34)
     }
 
     [[nodiscard, gnu::always_inline]] Vector3<S> by_inverse_inertia(const Motion& m, const Vector3<S>& v) const {
@@ -352,7 +345,7 @@ private:
         const Vector3<S>& omega = m.angular_velocity;
         const Vector3<S> L = y.template segment<3>(LayoutType::momentum).matrix();
         const Vector3<S> spin_up = by_inverse_inertia(m, Vector3<S>(total.torque - omega.cross(L)));
-        return -frame_.n.dot(acceleration(total) + spin_up.cross(k.center) + omega.cross(omega.cross(k.center)));
+        return -(acceleration(total) + spin_up.cross(k.center) + omega.cross(omega.cross(k.center))).z();
     }
 
     // d/dt of a function of s and zdot, the normal law cast to dual numbers first.
@@ -368,6 +361,13 @@ private:
         return along_motion(y, k, i, z_accel, [](const auto& normal, const auto& s, const auto& z_rate) {
             return normal.load(s, z_rate);
         });
+    }
+
+    // The zdot at which contact i has no load at s, near a given one.
+    [[nodiscard]] S unloading_rate(const S& s, const S& z_rate, int i) const noexcept {
+        using D = Dual<S, 1>;
+        const D load = law(i).normal.template cast<D>().load(D(s), D::variable(z_rate, 0));
+        return load.gradient[0] > S(0) ? S(z_rate - load.value / load.gradient[0]) : z_rate;
     }
 
     // Contacts that drag: the shares of their friction that keep every one of their loads at zero. The loads' rates are
@@ -393,7 +393,7 @@ private:
             for (Eigen::Index b = 0; b < n; ++b) {
                 const auto at = static_cast<std::size_t>(b);
                 Action with = total;
-                with.add(force(slipping[at]), contacts[index(dragging[at])].kinematics.arm);
+                add(with, slipping[at], contacts[index(dragging[at])].kinematics, dragging[at]);
                 effect(a, b) = load_rate(y, k, i, depth_acceleration(y, m, k, with)) - without[a];
             }
         }
@@ -403,7 +403,7 @@ private:
             Contact& c = contacts[index(dragging[at])];
             c.share = shares[a];
             c.response = blend(c.response, slipping[at], c.share);
-            total.add(force(c.response), c.kinematics.arm);
+            add(total, c.response, c.kinematics, dragging[at]);
         }
     }
 
@@ -461,7 +461,7 @@ private:
         }
         const ContactResponse<S>& r = c.response;
         S share(0.5);  // g / (2 s)
-        if constexpr (Spheres != 1) share = g / (S(2) * root_depth(y, i));
+        if (Spheres != 1 || drags(i)) share = g / (S(2) * root_depth(y, i));
         rate[layout_.root_depth(i)] = c.kinematics.depth_rate * share;
         if constexpr (Law::has_states) {
             for (int k = 0; k < layout_.friction_states; ++k) rate[b + k] = c.state_rates[index(k)] * g;
@@ -515,15 +515,14 @@ private:
 
     template <class, int>
     friend class System;
-    System() : frame_(Eigen::Vector3d::UnitZ()) {}
+    System() = default;
 
     LayoutType layout_;
-    S mass_;
+    S mass_, inverse_mass_;
     Matrix3<S> inverse_inertia_;
     bool isotropic_ = false;  // inertia is a multiple of the identity: omega = L / I
     bool oriented_ = false;   // the motion depends on the orientation
     Vector3<S> gravity_;
-    GroundFrame<S> frame_;
     S height_;
     std::vector<Vector3<S>> centers_;
     std::vector<S> radii_;
@@ -540,13 +539,11 @@ auto System<Law, Spheres>::cast() const {
     System<Cast, Spheres> other;
     other.layout_ = layout_;
     other.mass_ = T(mass_);
+    other.inverse_mass_ = T(inverse_mass_);
     other.inverse_inertia_ = inverse_inertia_.template cast<T>();
     other.isotropic_ = isotropic_;
     other.oriented_ = oriented_;
     other.gravity_ = gravity_.template cast<T>();
-    other.frame_.t1 = frame_.t1.template cast<T>();
-    other.frame_.t2 = frame_.t2.template cast<T>();
-    other.frame_.n = frame_.n.template cast<T>();
     other.height_ = T(height_);
     for (const auto& c : centers_) other.centers_.push_back(c.template cast<T>());
     for (const auto& r : radii_) other.radii_.push_back(T(r));
