@@ -35,7 +35,7 @@ double viscoelastic_number(double normal_stiffness, double normal_damping, doubl
 }
 
 double zero_depth_series(double B) noexcept {
-    constexpr double C_1 = 1.153448858095289, C_2 = 0.798266560944795, C_3 = 0.522882568068415, C_4 = 0.348742675260385;
+    constexpr double C_1 = 1.153448858095289, C_2 = 0.798266560944795, C_3 = 0.522882568088415, C_4 = 0.348742675260385;
     return 1 + B * (-C_1 + B * (C_2 + B * (-C_3 + B * C_4)));
 }
 
