@@ -52,7 +52,7 @@ constexpr std::array presets{
                    {1.08 * GPa, 0.42},
                    959,
                    callister_E,
-                   "Ashby 2005, Materials Selection in Mechanical Design, 3rd edition, the middle of 0.41 to 0.43",
+                   "Dowling 2013, Mechanical Behavior of Materials, 4th edition, table 5.2",
                    callister_rho},
     MaterialPreset{"rubber",
                    "styrene-butadiene",
