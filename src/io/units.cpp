@@ -23,7 +23,7 @@ struct Symbol {
     bool takes_prefix;
 };
 
-// Sources: the SI brochure (9th edition), tables 2, 4 and 8; the international yard and pound agreement (1959) for
+// Sources: the SI brochure (9th edition), tables 2, 4, 7 and 8; the international yard and pound agreement (1959) for
 // in, ft and lb, with standard gravity for lbf.
 constexpr std::array symbols{
     Symbol{"m", {{0, 1, 0, 0}}, true},
