@@ -26,7 +26,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "footfall/law/friction/rate_friction.hpp"
+#include "footfall/law/friction/stribeck_bristle.hpp"
 
 namespace footfall {
 
@@ -44,9 +44,7 @@ struct ElastoPlasticFriction {
     S elastic_share = S(0.7);  ///< beta, u_ba over the deflection of steady sliding [1], > 0 and <= 1
 
     /// g: the coefficient of friction of steady sliding, without the viscous term.
-    [[nodiscard]] S steady(const Vector2<S>& V) const noexcept {
-        return stribeck_curve(static_coefficient, kinetic_coefficient, stribeck_velocity, V);
-    }
+    [[nodiscard]] S steady(const Vector2<S>& V) const noexcept { return stribeck_curve(*this, V); }
     /// u_ba, the deflection up to which the bristle is elastic [m].
     [[nodiscard]] S breakaway() const noexcept {
         return elastic_share * std::min(static_coefficient, kinetic_coefficient) / stiffness;
@@ -60,8 +58,7 @@ struct ElastoPlasticFriction {
         if (length > breakaway() && outward > S(0))
             u_rate -= u * (plastic_share(length, u_ss) * outward / (length * u_ss));
         put_vector(rate, 0, u_rate);
-        return {-(stiffness * u + damping * u_rate + viscous * V), stiffness * u.dot(u_rate),
-                damping * u_rate.squaredNorm()};
+        return bristle_response(*this, V, u, u_rate);
     }
 
     [[nodiscard]] S stored(FrictionStates<S> x) const noexcept {
@@ -86,20 +83,9 @@ struct ElastoPlasticFriction {
 
     static constexpr auto parameters() noexcept {
         using Law = ElastoPlasticFriction<double>;
-        return std::array{Parameter<Law>{"stiffness", "sigma_0", "1/m", &Law::stiffness,
-                                         "stiffness of the bristle over the load", ""},
-                          Parameter<Law>{"damping", "sigma_1", "s/m", &Law::damping,
-                                         "damping of the bristle over the load", "an undamped bristle"},
-                          Parameter<Law>{"static_coefficient", "mu_s", "1", &Law::static_coefficient,
-                                         "coefficient of friction at no speed", ""},
-                          Parameter<Law>{"kinetic_coefficient", "mu_k", "1", &Law::kinetic_coefficient,
-                                         "coefficient of friction at high speed", ""},
-                          Parameter<Law>{"stribeck_velocity", "v_s", "m/s", &Law::stribeck_velocity,
-                                         "speed over which the one falls to the other", ""},
-                          Parameter<Law>{"viscous", "sigma_2", "s/m", &Law::viscous, "viscous friction over the load",
-                                         "no viscous friction", 0.0},
-                          Parameter<Law>{"elastic_share", "beta", "1", &Law::elastic_share,
-                                         "break-away deflection over that of steady sliding", "", 0.7, false, true}};
+        return stribeck_bristle_parameters<Law>(Parameter<Law>{"elastic_share", "beta", "1", &Law::elastic_share,
+                                                               "break-away deflection over that of steady sliding", "",
+                                                               0.7, false, true});
     }
 
 private:

@@ -20,7 +20,7 @@
 // It cannot represent a limit below which nothing creeps: under a small oscillating force it drifts.
 #pragma once
 
-#include "footfall/law/friction/rate_friction.hpp"
+#include "footfall/law/friction/stribeck_bristle.hpp"
 
 namespace footfall {
 
@@ -37,16 +37,13 @@ struct LuGreFriction {
     S viscous = S(0);       ///< sigma_2, viscous friction over the load [s/m], >= 0
 
     /// g: the coefficient of friction of steady sliding, without the viscous term. (5)
-    [[nodiscard]] S steady(const Vector2<S>& V) const noexcept {
-        return stribeck_curve(static_coefficient, kinetic_coefficient, stribeck_velocity, V);
-    }
+    [[nodiscard]] S steady(const Vector2<S>& V) const noexcept { return stribeck_curve(*this, V); }
 
     [[nodiscard]] RateResponse<S> respond(const Vector2<S>& V, FrictionStates<S> x, std::span<S> rate) const noexcept {
         const Vector2<S> u = vector_at<S>(x);
         const Vector2<S> u_rate = V - u * (stiffness * length_of(V) / steady(V));  // (3)
         put_vector(rate, 0, u_rate);
-        return {-(stiffness * u + damping * u_rate + viscous * V), stiffness * u.dot(u_rate),
-                damping * u_rate.squaredNorm()};
+        return bristle_response(*this, V, u, u_rate);  // (4)
     }
 
     [[nodiscard]] S stored(FrictionStates<S> x) const noexcept {
@@ -69,21 +66,7 @@ struct LuGreFriction {
         .source = "Canudas de Wit, Olsson, Astrom & Lischinsky 1995, (3)-(5), over the load",
         .limits = "drifts under small oscillating forces; not passive for large sigma_1"};
 
-    static constexpr auto parameters() noexcept {
-        using Law = LuGreFriction<double>;
-        return std::array{Parameter<Law>{"stiffness", "sigma_0", "1/m", &Law::stiffness,
-                                         "stiffness of the bristle over the load", ""},
-                          Parameter<Law>{"damping", "sigma_1", "s/m", &Law::damping,
-                                         "damping of the bristle over the load", "an undamped bristle"},
-                          Parameter<Law>{"static_coefficient", "mu_s", "1", &Law::static_coefficient,
-                                         "coefficient of friction at no speed", ""},
-                          Parameter<Law>{"kinetic_coefficient", "mu_k", "1", &Law::kinetic_coefficient,
-                                         "coefficient of friction at high speed", ""},
-                          Parameter<Law>{"stribeck_velocity", "v_s", "m/s", &Law::stribeck_velocity,
-                                         "speed over which the one falls to the other", ""},
-                          Parameter<Law>{"viscous", "sigma_2", "s/m", &Law::viscous, "viscous friction over the load",
-                                         "no viscous friction", 0.0}};
-    }
+    static constexpr auto parameters() noexcept { return stribeck_bristle_parameters<LuGreFriction<double>>(); }
 };
 
 }  // namespace footfall

@@ -106,12 +106,4 @@ template <class S>
     return square > S(0) ? S(sqrt(square)) : S(0);
 }
 
-/// The curve by which friction falls from its static to its kinetic coefficient as the speed grows, in the form of
-/// Canudas de Wit, Olsson, Astrom & Lischinsky 1995, (5): mu_k + (mu_s - mu_k) exp(-(|V|/v_s)^2).
-template <class S>
-[[nodiscard]] S stribeck_curve(const S& mu_s, const S& mu_k, const S& v_s, const Vector2<S>& V) noexcept {
-    using std::exp;
-    return mu_k + (mu_s - mu_k) * exp(-V.squaredNorm() / (v_s * v_s));
-}
-
 }  // namespace footfall
