@@ -62,20 +62,15 @@ struct HaessigFriedlandFriction {
         return sum / S(bonds);
     }
 
-    [[nodiscard]] S margin(Phase, const Vector2<S>&, FrictionStates<S> x) const noexcept {
-        S longest(0);
-        for (int i = 0; i < bonds; ++i) longest = std::max(longest, length_of(vector_at<S>(x, at(i))));
-        return reach - longest;
-    }
+    [[nodiscard]] S margin(Phase, const Vector2<S>&, FrictionStates<S> x) const noexcept { return reach - longest(x); }
 
     /// Every bond that is at its reach, or nearer to it than rounding tells, snaps.
     [[nodiscard]] Phase jump(Phase phase, const Vector2<S>&, std::span<S> x) const noexcept {
-        S longest(0);
-        for (int i = 0; i < bonds; ++i) longest = std::max(longest, length_of(vector_at<S>(x, at(i))));
+        const S greatest = longest(x);
         for (int i = 0; i < bonds; ++i) {
             const Vector2<S> u = vector_at<S>(x, at(i));
             const S length = length_of(u);
-            if (length < longest * S(1 - 1e-9)) continue;
+            if (length < greatest * S(1 - 1e-9)) continue;
             put_vector(x, at(i), Vector2<S>(u * (reach / length * S(drawn(x[counter])))));
             x[counter] += S(1);
         }
@@ -111,6 +106,13 @@ struct HaessigFriedlandFriction {
 private:
     static constexpr std::size_t counter = 2 * bonds;
     static constexpr std::size_t at(int bond) noexcept { return 2 * static_cast<std::size_t>(bond); }
+
+    /// The stretch of the bond that is stretched most [m].
+    [[nodiscard]] static S longest(FrictionStates<S> x) noexcept {
+        S length(0);
+        for (int i = 0; i < bonds; ++i) length = std::max(length, length_of(vector_at<S>(x, at(i))));
+        return length;
+    }
 
     /// The number in [0, 1) for the n-th bond that snaps.
     [[nodiscard]] static double drawn(const S& n) noexcept {
