@@ -115,20 +115,22 @@ std::vector<RestitutionTheory> theories_of(const NormalLaw& law, double mass) {
     };
     std::visit(
         [&]<class Law>(const Law& l) {
-            if constexpr (std::is_same_v<Law, AzadFeatherstoneNormal<>>) {
-                viscoelastic(l);
-            } else if constexpr (requires { l.azad_featherstone(); }) {
-                viscoelastic(l.azad_featherstone());
-            } else if constexpr (std::is_same_v<Law, HuntCrossleyNormal<>>) {
-                classical(l, [l](double) { return l; });
-            } else if constexpr (requires { l.hunt_crossley(); }) {
-                const auto at_speed = [l](double speed) {
-                    Law begun = l;
-                    if constexpr (requires { begun.begin_impact(speed); }) begun.begin_impact(speed);
-                    return begun.hunt_crossley();
-                };
+            // The law of an impact that begins at a speed, as the law that computes its force.
+            const auto at_speed = [l](double speed) {
+                Law begun = l;
+                if constexpr (requires { begun.begin_impact(speed); }) begun.begin_impact(speed);
+                if constexpr (requires { begun.restated(); }) {
+                    return begun.restated();
+                } else {
+                    return begun;
+                }
+            };
+            using Computed = decltype(at_speed(1.0));
+            if constexpr (std::is_same_v<Computed, AzadFeatherstoneNormal<>>) {
+                viscoelastic(at_speed(1.0));
+            } else if constexpr (std::is_same_v<Computed, HuntCrossleyNormal<>>) {
                 classical(at_speed(1.0), at_speed);
-            } else if constexpr (std::is_same_v<Law, LinearNormal<>>) {
+            } else if constexpr (std::is_same_v<Computed, LinearNormal<>>) {
                 theories.push_back({"closed_form",
                                     "the linear law until zero force; Schwager & Poeschel 2007, (15)-(17)",
                                     [l, mass](double) { return linear_restitution(mass, l.stiffness, l.damping); }});

@@ -9,17 +9,20 @@
 // v^((4b - 1)/5): b = 1/4, the default, is the exponent with which restitution does not depend on the speed; b = 1/2 is
 // the viscoelastic sphere, b = 3/2 Hunt & Crossley's law (2), b = 0 a plain dashpot.
 // It is Hunt & Crossley's (1) with n = 3/2, p = b, q = 1, and computed there.
-// It cannot represent adhesion or plasticity; for b = 0 the force jumps to D zdot at touchdown.
+// It cannot represent adhesion or plasticity; for b = 0 the force jumps to D zdot at touchdown. For b < 1/2 the force
+// over s has no limit there.
 #pragma once
 
 #include <array>
 
 #include "footfall/law/normal/hunt_crossley.hpp"
+#include "footfall/law/normal/restated.hpp"
 
 namespace footfall {
 
-template <class S = double>
-struct FalconNormal {
+/// The parameters of FalconNormal.
+template <class S>
+struct FalconParameters {
     using value_type = S;
 
     S stiffness;           ///< K_n, normal stiffness [N/m^1.5], > 0
@@ -27,27 +30,13 @@ struct FalconNormal {
     S exponent = S(0.25);  ///< b, exponent of the depth in the damper, >= 0
 
     /// The same law in Hunt & Crossley's parameters.
-    [[nodiscard]] constexpr HuntCrossleyNormal<S> hunt_crossley() const noexcept {
+    [[nodiscard]] constexpr HuntCrossleyNormal<S> restated() const noexcept {
         return {stiffness, damping, S(1.5), exponent, S(1)};
     }
 
-    /// f / s^Over before the clamp, s = sqrt(z). For b < 1/2 it has no limit at touchdown over s.
-    template <int Over = 0>
-    [[nodiscard]] constexpr NormalForce<S> force(const S& s, const S& z_rate) const noexcept {
-        return hunt_crossley().template force<Over>(s, z_rate);
-    }
-
-    /// The unclamped force over its leading power of s.
-    [[nodiscard]] constexpr S load(const S& s, const S& z_rate) const noexcept {
-        return hunt_crossley().load(s, z_rate);
-    }
-
-    /// Energy in the normal spring [J].
-    [[nodiscard]] constexpr S stored_energy(const S& s) const noexcept { return hunt_crossley().stored_energy(s); }
-
     template <class T>
-    [[nodiscard]] constexpr FalconNormal<T> cast() const noexcept {
-        return {T(stiffness), T(damping), T(exponent)};
+    [[nodiscard]] constexpr RestatedNormal<FalconParameters<T>> cast() const noexcept {
+        return {{T(stiffness), T(damping), T(exponent)}};
     }
 
     static constexpr LawDescription description{
@@ -57,7 +46,7 @@ struct FalconNormal {
         .limits = "no adhesion, no plasticity; 1 - e goes as v^((4b-1)/5), for b = 0.25 not with the speed"};
 
     static constexpr auto parameters() noexcept {
-        using Law = FalconNormal<double>;
+        using Law = RestatedNormal<FalconParameters<double>>;
         return std::array{
             Parameter<Law>{"stiffness", "K_n", "N/m^1.5", &Law::stiffness, "normal stiffness", ""},
             Parameter<Law>{
@@ -66,5 +55,8 @@ struct FalconNormal {
                            "the damper acts at full strength from touchdown on", 0.25}};
     }
 };
+
+template <class S = double>
+using FalconNormal = RestatedNormal<FalconParameters<S>>;
 
 }  // namespace footfall

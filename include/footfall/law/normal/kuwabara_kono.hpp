@@ -14,38 +14,26 @@
 #include <array>
 
 #include "footfall/law/normal/azad_featherstone.hpp"
+#include "footfall/law/normal/restated.hpp"
 
 namespace footfall {
 
-template <class S = double>
-struct KuwabaraKonoNormal {
+/// The parameters of KuwabaraKonoNormal.
+template <class S>
+struct KuwabaraKonoParameters {
     using value_type = S;
 
     S stiffness;     ///< K_n, normal stiffness [N/m^1.5], > 0. Brilliantov et al. 1996.
     S damping_time;  ///< A, dissipative parameter [s], >= 0. Brilliantov et al. 1996.
 
     /// The same law in the paper's parameters.
-    [[nodiscard]] constexpr AzadFeatherstoneNormal<S> azad_featherstone() const noexcept {
+    [[nodiscard]] constexpr AzadFeatherstoneNormal<S> restated() const noexcept {
         return {stiffness, S(1.5) * damping_time * stiffness};
     }
 
-    /// f / s^Over before the clamp, s = sqrt(z).
-    template <int Over = 0>
-    [[nodiscard]] constexpr NormalForce<S> force(const S& s, const S& z_rate) const noexcept {
-        return azad_featherstone().template force<Over>(s, z_rate);
-    }
-
-    /// The unclamped force over its leading power of s.
-    [[nodiscard]] constexpr S load(const S& s, const S& z_rate) const noexcept {
-        return azad_featherstone().load(s, z_rate);
-    }
-
-    /// Energy in the normal spring [J].
-    [[nodiscard]] constexpr S stored_energy(const S& s) const noexcept { return azad_featherstone().stored_energy(s); }
-
     template <class T>
-    [[nodiscard]] constexpr KuwabaraKonoNormal<T> cast() const noexcept {
-        return {T(stiffness), T(damping_time)};
+    [[nodiscard]] constexpr RestatedNormal<KuwabaraKonoParameters<T>> cast() const noexcept {
+        return {{T(stiffness), T(damping_time)}};
     }
 
     static constexpr LawDescription description{
@@ -55,12 +43,15 @@ struct KuwabaraKonoNormal {
         .limits = "no adhesion, no plasticity; depth small beside the radius"};
 
     static constexpr auto parameters() noexcept {
-        using Law = KuwabaraKonoNormal<double>;
+        using Law = RestatedNormal<KuwabaraKonoParameters<double>>;
         return std::array{Parameter<Law>{"stiffness", "K_n", "N/m^1.5", &Law::stiffness, "normal stiffness", ""},
                           Parameter<Law>{"damping_time", "A", "s", &Law::damping_time,
                                          "dissipative parameter of the material, D_n = 1.5 A K_n",
                                          "elastic: Hertz's law, restitution 1"}};
     }
 };
+
+template <class S = double>
+using KuwabaraKonoNormal = RestatedNormal<KuwabaraKonoParameters<S>>;
 
 }  // namespace footfall

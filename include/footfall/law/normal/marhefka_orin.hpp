@@ -12,11 +12,13 @@
 #include <array>
 
 #include "footfall/law/normal/hunt_crossley.hpp"
+#include "footfall/law/normal/restated.hpp"
 
 namespace footfall {
 
-template <class S = double>
-struct MarhefkaOrinNormal {
+/// The parameters of MarhefkaOrinNormal.
+template <class S>
+struct MarhefkaOrinParameters {
     using value_type = S;
 
     S stiffness;   ///< k [N/m^n], > 0
@@ -27,27 +29,13 @@ struct MarhefkaOrinNormal {
     [[nodiscard]] constexpr S damping() const noexcept { return S(1.5) * alpha * stiffness; }
 
     /// The same law in Hunt & Crossley's parameters.
-    [[nodiscard]] constexpr HuntCrossleyNormal<S> hunt_crossley() const noexcept {
+    [[nodiscard]] constexpr HuntCrossleyNormal<S> restated() const noexcept {
         return {stiffness, damping(), n, n, S(1)};
     }
 
-    /// f / s^Over before the clamp, s = sqrt(z).
-    template <int Over = 0>
-    [[nodiscard]] constexpr NormalForce<S> force(const S& s, const S& z_rate) const noexcept {
-        return hunt_crossley().template force<Over>(s, z_rate);
-    }
-
-    /// The unclamped force over its leading power of s.
-    [[nodiscard]] constexpr S load(const S& s, const S& z_rate) const noexcept {
-        return hunt_crossley().load(s, z_rate);
-    }
-
-    /// Energy in the normal spring [J].
-    [[nodiscard]] constexpr S stored_energy(const S& s) const noexcept { return hunt_crossley().stored_energy(s); }
-
     template <class T>
-    [[nodiscard]] constexpr MarhefkaOrinNormal<T> cast() const noexcept {
-        return {T(stiffness), T(alpha), T(n)};
+    [[nodiscard]] constexpr RestatedNormal<MarhefkaOrinParameters<T>> cast() const noexcept {
+        return {{T(stiffness), T(alpha), T(n)}};
     }
 
     static constexpr LawDescription description{
@@ -57,7 +45,7 @@ struct MarhefkaOrinNormal {
         .limits = "restitution falls linearly with speed from rest on; no adhesion, no plasticity"};
 
     static constexpr auto parameters() noexcept {
-        using Law = MarhefkaOrinNormal<double>;
+        using Law = RestatedNormal<MarhefkaOrinParameters<double>>;
         return std::array{
             Parameter<Law>{"stiffness", "k", "N/m^n", &Law::stiffness, "normal stiffness", "", {}, true},
             Parameter<Law>{"alpha", "alpha", "s/m", &Law::alpha, "slope of restitution, e = 1 - alpha v",
@@ -65,5 +53,8 @@ struct MarhefkaOrinNormal {
             Parameter<Law>{"n", "n", "1", &Law::n, "exponent of the depth in spring and damper", "", 1.5}};
     }
 };
+
+template <class S = double>
+using MarhefkaOrinNormal = RestatedNormal<MarhefkaOrinParameters<S>>;
 
 }  // namespace footfall

@@ -1,0 +1,71 @@
+// What Lankarani & Nikravesh's and Flores et al.'s laws share: Hunt & Crossley's force, whose damping is made anew at
+// every touchdown for a restitution that is asked for.
+//
+//   f = K z^n + chi z^n zdot,   chi from K, e and zdot_in: the law's own file
+//
+// Units: K N/m^n, e 1, chi N s/m^(n+1), zdot_in m/s: the speed at which this impact began, a state of the contact, not
+// of the ground. Stored energy: K z^(n+1) / (n+1). Dissipated power: chi z^n zdot^2.
+// Choice: the damping of an impact that begins without speed would be infinite. It is bounded with `slowest_impact`,
+// which the sources do not have.
+// They cannot represent a restitution that falls with speed, adhesion, or long contact: a ball at rest on the ground
+// keeps the damping of its last impact.
+#pragma once
+
+#include <array>
+
+#include "footfall/law/normal/hunt_crossley.hpp"
+#include "footfall/law/normal/restated.hpp"
+
+namespace footfall {
+
+/// The parameters of such a law. `Damping` has its chi(K, e, zdot_in) and its description.
+template <class Damping, class S>
+struct DampedForRestitution {
+    using value_type = S;
+
+    S stiffness;    ///< K [N/m^n], > 0
+    S restitution;  ///< e, the restitution asked for [1], in (0, 1]
+    S n = S(1.5);   ///< exponent of the depth, > 0
+    /// v_min [m/s], > 0: impacts slower than this, and contacts that begin without speed, are damped as one at v_min.
+    S slowest_impact = S(1e-3);
+    /// zdot at touchdown [m/s], no parameter: begin_impact sets it. 0 where the contact began without speed.
+    S impact_speed = S(0);
+
+    /// To be called at every touchdown with zdot [m/s].
+    constexpr void begin_impact(const S& speed) noexcept { impact_speed = speed; }
+
+    /// chi, damping of this impact [N s/m^(n+1)].
+    [[nodiscard]] constexpr S damping() const noexcept {
+        const S& speed = select(impact_speed > slowest_impact, impact_speed, slowest_impact);
+        return Damping::chi(stiffness, restitution, speed);
+    }
+
+    /// This impact under Hunt & Crossley's law.
+    [[nodiscard]] constexpr HuntCrossleyNormal<S> restated() const noexcept {
+        return {stiffness, damping(), n, n, S(1)};
+    }
+
+    template <class T>
+    [[nodiscard]] constexpr RestatedNormal<DampedForRestitution<Damping, T>> cast() const noexcept {
+        return {{T(stiffness), T(restitution), T(n), T(slowest_impact), T(impact_speed)}};
+    }
+
+    static constexpr LawDescription description = Damping::description;
+
+    static constexpr auto parameters() noexcept {
+        using Law = RestatedNormal<DampedForRestitution<Damping, double>>;
+        return std::array{Parameter<Law>{"stiffness", "K", "N/m^n", &Law::stiffness, "normal stiffness", "", {}, true},
+                          Parameter<Law>{.key = "restitution",
+                                         .symbol = "e",
+                                         .unit = "1",
+                                         .member = &Law::restitution,
+                                         .description = "restitution that the damping is made for",
+                                         .when_zero = "",
+                                         .at_most_one = true},
+                          Parameter<Law>{"n", "n", "1", &Law::n, "exponent of the depth in spring and damper", "", 1.5},
+                          Parameter<Law>{"slowest_impact", "v_min", "m/s", &Law::slowest_impact,
+                                         "slower impacts are damped as at this speed", "", 1e-3}};
+    }
+};
+
+}  // namespace footfall

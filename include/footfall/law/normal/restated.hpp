@@ -1,0 +1,29 @@
+// A normal law that is another one in parameters of its own. Its file has the parameters and says which law they make;
+// the force, where its sign changes and the energy are computed there, and not a second time.
+#pragma once
+
+#include "footfall/law/normal/normal_force.hpp"
+
+namespace footfall {
+
+/// `Parameters` with the members of a normal law. `Parameters::restated()` is the same law as one that has them.
+template <class Parameters>
+struct RestatedNormal : Parameters {
+    using S = typename Parameters::value_type;
+
+    /// f / s^Over before the clamp, s = sqrt(z).
+    template <int Over = 0>
+    [[nodiscard]] constexpr NormalForce<S> force(const S& s, const S& z_rate) const noexcept {
+        return this->restated().template force<Over>(s, z_rate);
+    }
+
+    /// The unclamped force over its leading power of s.
+    [[nodiscard]] constexpr S load(const S& s, const S& z_rate) const noexcept {
+        return this->restated().load(s, z_rate);
+    }
+
+    /// Energy in the normal spring [J].
+    [[nodiscard]] constexpr S stored_energy(const S& s) const noexcept { return this->restated().stored_energy(s); }
+};
+
+}  // namespace footfall
