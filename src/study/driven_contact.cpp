@@ -53,40 +53,28 @@ private:
     bool spring_alone_;
 };
 
-/// What the contact does, whatever its friction law.
+/// What the contact does, and how far it is from the end of its phase.
 template <class S>
-struct Answer {
-    S normal_force = S(0);
-    Vector2<S> friction_force = Vector2<S>::Zero();
-    S normal_spring = S(0), tangential_spring = S(0);
-    S normal_damper = S(0), tangential_damper = S(0), clutch = S(0), stiffness_change = S(0);  // powers
+struct Answer : ContactResponse<S> {
     S guard = S(1);
 };
 
-/// The laws that ContactLaw composes: spring, damper and clutch, or no friction.
+/// A friction law of spring, damper and clutch, or none.
 template <class S, class Friction>
-struct ClutchedContact {
-    using value_type = S;
+struct ClutchedContact : ContactLaw<RigNormal<S>, Friction> {
     using Law = ContactLaw<RigNormal<S>, Friction>;
+    using Law::friction, Law::normal;
     static constexpr int states = Friction::has_bristle ? 2 : 0;
     static constexpr bool turns = false;
-
-    RigNormal<S> normal;
-    Friction friction;
 
     /// `load_rate` is d(F_n / s^ScalePower)/dt.
     Answer<S> respond(Phase phase, const S& s, const S& z_rate, const S& load_rate, const Vector2<S>& V,
                       std::span<const S> x, std::span<S> x_rate) const {
         const Vector2<S> u = bristle(x);
-        const auto r = law().respond(phase, s, z_rate, V, u, load_rate);
+        Answer<S> a{Law::respond(phase, s, z_rate, V, u, load_rate)};
         if constexpr (states > 0) {
-            x_rate[0] = r.bristle_rate.x();
-            x_rate[1] = r.bristle_rate.y();
-        }
-        Answer<S> a{r.normal_force,      r.friction_force,         r.normal_spring,
-                    r.tangential_spring, r.normal_damper_power,    r.tangential_damper_power,
-                    r.clutch_power,      r.stiffness_change_power, S(1)};
-        if constexpr (states > 0) {
+            x_rate[0] = a.bristle_rate.x();
+            x_rate[1] = a.bristle_rate.y();
             if (phase == Phase::stick || phase == Phase::slip) {
                 const S phi_n = scaled_load(s, z_rate);
                 a.guard = phase == Phase::stick ? friction.cone_margin(phi_n, V, u)
@@ -96,6 +84,7 @@ struct ClutchedContact {
         return a;
     }
 
+    [[nodiscard]] static int state_count() { return states; }
     [[nodiscard]] static Vector2<S> bristle(std::span<const S> x) {
         if constexpr (states > 0) return {x[0], x[1]};
         return Vector2<S>::Zero();
@@ -103,57 +92,38 @@ struct ClutchedContact {
     [[nodiscard]] S scaled_load(const S& s, const S& z_rate) const {
         return normal.template force<Friction::ScalePower>(s, z_rate).total();
     }
-    [[nodiscard]] Law law() const { return {normal, friction}; }
     [[nodiscard]] double state_size(int) const { return 0; }
 
     template <class T>
     [[nodiscard]] auto cast() const {
         auto other = friction.template cast<T>();
-        return ClutchedContact<T, decltype(other)>{normal.template cast<T>(), other};
+        return ClutchedContact<T, decltype(other)>{{normal.template cast<T>(), other}};
     }
 };
 
-/// The laws with states of their own whose force is proportional to the load.
+/// A friction law with states of its own.
 template <class S>
-struct RateContact {
-    using value_type = S;
+struct RateContact : ContactLaw<RigNormal<S>, AnyRateFriction<S>> {
+    using Law = ContactLaw<RigNormal<S>, AnyRateFriction<S>>;
+    using Law::friction, Law::normal;
 
-    RigNormal<S> normal;
-    AnyRateFriction<S> friction;
-    int states;
     bool turns;  ///< it has |V| in its rates, and no phases that would end where V turns
 
     /// `load_rate` is dF_n/dt.
     Answer<S> respond(Phase phase, const S& s, const S& z_rate, const S& load_rate, const Vector2<S>& V,
                       std::span<const S> x, std::span<S> x_rate) const {
-        Answer<S> a;
-        for (S& rate : x_rate) rate = S(0);
-        if (phase == Phase::flight) return a;
-        const NormalForce<S> f = normal.force(s, z_rate);
-        a.normal_spring = normal.stored_energy(s);
-        if (phase == Phase::recovering) {
-            a.normal_damper = -f.elastic * z_rate;  // (14): the damper takes what the spring gives
-            return a;
-        }
-        a.normal_force = f.total();
-        a.normal_damper = f.dissipative * z_rate;
-        a.guard = friction.margin(phase, V, x);
-        const RateResponse<S> r = friction.respond(phase, V, x, x_rate);
-        const S w = friction.stored(phase, x);
-        a.friction_force = a.normal_force * r.traction;
-        a.tangential_spring = a.normal_force * w;
-        a.tangential_damper = a.normal_force * r.damper_power;
-        a.clutch = a.normal_force * (-r.traction.dot(V) - r.stored_rate - r.damper_power);
-        a.stiffness_change = -w * load_rate;
+        Answer<S> a{Law::respond(phase, s, z_rate, V, x, x_rate, load_rate)};
+        if (phase == Phase::stick || phase == Phase::slip) a.guard = friction.margin(phase, V, x);
         return a;
     }
 
+    [[nodiscard]] int state_count() const { return friction.state_count(); }
     [[nodiscard]] Vector2<S> bristle(std::span<const S> x) const { return friction.bristle(x); }
     [[nodiscard]] double state_size(int i) const { return friction.state_size(i); }
 
     template <class T>
     [[nodiscard]] RateContact<T> cast() const {
-        return {normal.template cast<T>(), friction.template cast<T>(), states, turns};
+        return {{normal.template cast<T>(), friction.template cast<T>()}, turns};
     }
 };
 
@@ -161,11 +131,11 @@ template <class Contact>
 class DrivenContactUnder final : public DrivenContact {
 public:
     using SlopeContact = decltype(std::declval<Contact>().template cast<Slope>());
-    static constexpr bool clutched = requires(const Contact& c) { c.law(); };
+    static constexpr bool clutched = !Contact::has_states;
 
     DrivenContactUnder(const Rig& rig, const Timeline& timeline, Contact contact)
         : rig_(rig), timeline_(timeline), contact_(std::move(contact)), slopes_(contact_.template cast<Slope>()) {
-        layout_.state_count = contact_.states;
+        layout_.state_count = contact_.state_count();
     }
 
     void differentiate(const DrivenState& y, Eigen::MatrixXd& J) override {
@@ -290,10 +260,10 @@ private:
         rate[layout_.displacement()] = V.x() * g;
         rate[layout_.displacement() + 1] = V.y() * g;
         const int e = layout_.ledger();
-        rate[e + L::normal_damper] = a.normal_damper * g;
-        rate[e + L::tangential_damper] = a.tangential_damper * g;
-        rate[e + L::clutch] = a.clutch * g;
-        rate[e + L::stiffness_change] = a.stiffness_change * g;
+        rate[e + L::normal_damper] = a.normal_damper_power * g;
+        rate[e + L::tangential_damper] = a.tangential_damper_power * g;
+        rate[e + L::clutch] = a.clutch_power * g;
+        rate[e + L::stiffness_change] = a.stiffness_change_power * g;
         rate[e + L::holding_damper] = holding * g;
         rate[e + L::pressing_work] = a.normal_force * z_rate * g;
         rate[e + L::dragging_work] = dragging * g;
@@ -425,11 +395,11 @@ std::unique_ptr<DrivenContact> DrivenContact::make(const Rig& rig, const Timelin
         [&]<class Friction>(const Friction& friction) -> std::unique_ptr<DrivenContact> {
             if constexpr (requires { Friction::has_bristle; }) {
                 using Contact = ClutchedContact<double, Friction>;
-                return std::make_unique<DrivenContactUnder<Contact>>(rig, timeline, Contact{normal, friction});
+                return std::make_unique<DrivenContactUnder<Contact>>(rig, timeline, Contact{{normal, friction}});
             } else {
                 const bool turns = SmoothRateFriction<Friction> && Friction::states > 0;
                 return std::make_unique<DrivenContactUnder<RateContact<double>>>(
-                    rig, timeline, RateContact<double>{normal, AnyRateFriction<>(friction), Friction::states, turns});
+                    rig, timeline, RateContact<double>{{normal, AnyRateFriction<>(friction)}, turns});
             }
         },
         laws.friction);
