@@ -14,94 +14,13 @@
 #include "footfall/simulate/guard_search.hpp"
 #include "footfall/simulate/method.hpp"
 #include "study/driven_contact.hpp"
+#include "study/swing.hpp"
 #include "study/timeline.hpp"
 
 namespace footfall {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-
-/// Watches the deflection of a held mass for its greatest and least values.
-class Swing {
-public:
-    struct Turn {
-        double time, deflection;
-        bool greatest;
-    };
-
-    Swing(const Rig& rig, const Timeline& timeline) : rig_(&rig) {
-        if (rig.drag != Drag::mass || !(rig.mass.stiffness > 0)) return;
-        const Interval& last = timeline.intervals().back();
-        const Instant end = timeline.at(last, 0.5);
-        const Eigen::Vector2d drawn = end.belt - end.support_velocity;
-        speed_ = drawn.norm();
-        if (speed_ > 0) along_ = drawn / speed_;
-    }
-
-    [[nodiscard]] bool watches() const noexcept { return speed_ > 0; }
-    /// How fast the mass moves along the belt's way relative to the support.
-    [[nodiscard]] double rate(const DrivenState& y, const Instant& now) const {
-        return along_.dot(Eigen::Vector2d(y[DrivenLayout::velocity], y[DrivenLayout::velocity + 1]) -
-                          now.support_velocity);
-    }
-    [[nodiscard]] double deflection(const DrivenState& y, const Instant& now) const {
-        return along_.dot(Eigen::Vector2d(y[DrivenLayout::position], y[DrivenLayout::position + 1]) - now.support);
-    }
-    void turn(double time, double deflection, bool greatest) { turns_.push_back({time, deflection, greatest}); }
-
-    [[nodiscard]] std::optional<StickSlip> result(const std::vector<RigState>& samples) const {
-        // From one greatest deflection to another, in the later half.
-        std::vector<Turn> turns = large_turns();
-        while (!turns.empty() && !turns.front().greatest) turns.erase(turns.begin());
-        while (!turns.empty() && !turns.back().greatest) turns.pop_back();
-        if (turns.size() < 3) return std::nullopt;
-        StickSlip s;
-        s.cycles = static_cast<int>(turns.size() / 2);
-        for (std::size_t i = 0; i + 1 < turns.size(); ++i)
-            (turns[i].greatest ? s.greatest : s.least) += turns[i].deflection / s.cycles;
-        const double from = turns.front().time, to = turns.back().time;
-        s.period = (to - from) / s.cycles;
-        s.amplitude = (s.greatest - s.least) / 2;
-        int with = 0, all = 0;
-        for (const RigState& state : samples) {
-            if (state.time < from || state.time > to) continue;
-            ++all;
-            if (state.slip_velocity.norm() < 0.01 * speed_) ++with;
-        }
-        s.sticking = all > 0 ? static_cast<double>(with) / all : 0;
-        return s;
-    }
-
-private:
-    /// The turns of the later half that come after a way of more than a quarter of the whole swing, by turns greatest
-    /// and least: a mass that swings on its contact as well has small ones in between.
-    [[nodiscard]] std::vector<Turn> large_turns() const {
-        std::vector<Turn> late, large;
-        for (const Turn& t : turns_)
-            if (t.time >= rig_->end_time / 2) late.push_back(t);
-        if (late.empty()) return large;
-        const auto [least, greatest] = std::minmax_element(
-            late.begin(), late.end(), [](const Turn& a, const Turn& b) { return a.deflection < b.deflection; });
-        const double way = (greatest->deflection - least->deflection) / 4;
-        for (const Turn& t : late) {
-            if (large.empty() || large.back().greatest == t.greatest) {
-                // Another of the same kind, with nothing large in between: the farther one counts.
-                if (large.empty())
-                    large.push_back(t);
-                else if ((t.deflection > large.back().deflection) == t.greatest)
-                    large.back() = t;
-            } else if (std::abs(t.deflection - large.back().deflection) > way) {
-                large.push_back(t);
-            }
-        }
-        return large;
-    }
-
-    const Rig* rig_;
-    double speed_ = 0;
-    Eigen::Vector2d along_{0, 0};
-    std::vector<Turn> turns_;
-};
 
 class Driver {
 public:
@@ -219,18 +138,10 @@ private:
 
     void begin_interval(const Interval& interval, bool first) {
         const Phase before = contact_->phase();
-        if (!first) y_[L::theta] = 1;
-        if (first) {
-            interval_ = interval;
-            contact_->enter(interval, y_);
-            initial_balance_ = state(y_).energy.balance();
-            account();
-            next_sample_ = 0;
-        } else {
-            interval_ = interval;
-            contact_->enter(interval, y_);
-            account();
-        }
+        interval_ = interval;
+        contact_->enter(interval, y_);
+        if (first) initial_balance_ = state(y_).energy.balance();
+        account();
         say_phase(before, first);
         look_along_now();
         begin_phase();
