@@ -69,6 +69,17 @@ auto with_parameter(const NormalLaw& law, std::string_view key, const Visit& vis
         law);
 }
 
+/// Gives the parameter of that key a value.
+void put(NormalLaw& law, std::string_view key, double value) {
+    std::visit(
+        [&]<class Law>(Law& l) {
+            for (const auto& parameter : Law::parameters()) {
+                if (parameter.key == key) l.*parameter.member = value;
+            }
+        },
+        law);
+}
+
 // Residuals -----------------------------------------------------------------------------------------------------------
 
 /// The arguments of a fit, in this order: the law's free parameters, then those of these that count.
@@ -115,42 +126,11 @@ public:
     /// The law's y for each x at the arguments `a`; NaN where it has none.
     template <class S>
     void evaluate(const S* a, std::span<S> y) const {
-        const FitData& data = study_.data;
         const AnyNormal<S> law = substitute<S>(law_.law, places_, a);
-        const auto fail = [&] { std::fill(y.begin(), y.end(), S(std::nan(""))); };
-        if (data.kind == Measured::restitution) {
-            const S mass = a[arguments_.mass];
-            for (std::size_t i = 0; i < y.size(); ++i) {
-                const auto out = ImpactTrace<S>(law, mass, S(data.x[i])).speed_out();
-                if (!out) return fail();
-                y[i] = *out / S(data.x[i]);
-            }
-        } else if (!follows_one_impact()) {
-            AnyNormal<S> begun = law;
-            begun.begin_impact(S(entry_speed()));
-            for (std::size_t i = 0; i < y.size(); ++i) {
-                const double rate = data.rate.empty() ? 0 : data.rate[i];
-                if (!(data.x[i] > 0)) {
-                    y[i] = S(0);
-                    continue;
-                }
-                const S force = begun.template force<0>(S(std::sqrt(data.x[i])), S(rate)).total();
-                y[i] = force > S(0) ? force : S(0);
-            }
-        } else {
-            const ImpactTrace<S> impact(law, a[arguments_.mass], a[arguments_.speed]);
-            bool followed = false;
-            if (data.kind == Measured::force_time) {
-                const S begin = arguments_.touchdown != Arguments::none ? a[arguments_.touchdown]
-                                                                        : S(study_.touchdown.value.value_or(0));
-                std::vector<S> times;
-                for (const double t : data.x) times.push_back(S(t) - begin);
-                followed = impact.force_at_times(times, y);
-            } else {
-                followed = impact.force_at_depths(data.x, branches_, y);
-            }
-            if (!followed) fail();
-        }
+        const bool followed = study_.data.kind == Measured::restitution ? restitutions(law, a, y)
+                              : follows_one_impact()                    ? forces_of_impact(law, a, y)
+                                                                        : forces_at_rates(law, y);
+        if (!followed) std::fill(y.begin(), y.end(), S(std::nan("")));
     }
 
     void residuals(std::span<const double> x, std::span<double> r) const {
@@ -177,19 +157,51 @@ public:
     /// The law with the parameters that `x` begins with.
     [[nodiscard]] NormalLaw law_at(std::span<const double> x) const {
         NormalLaw law = law_.law;
-        std::visit(
-            [&]<class Law>(Law& l) {
-                for (const auto& parameter : Law::parameters()) {
-                    for (std::size_t i = 0; i < law_.free.size(); ++i) {
-                        if (law_.free[i].key == parameter.key) l.*parameter.member = x[i];
-                    }
-                }
-            },
-            law);
+        for (std::size_t i = 0; i < law_.free.size(); ++i) put(law, law_.free[i].key, x[i]);
         return law;
     }
 
 private:
+    /// Of an impact at each speed. False where one does not end.
+    template <class S>
+    [[nodiscard]] bool restitutions(const AnyNormal<S>& law, const S* a, std::span<S> y) const {
+        const std::vector<double>& speed = study_.data.x;
+        for (std::size_t i = 0; i < y.size(); ++i) {
+            const auto out = ImpactTrace<S>(law, a[arguments_.mass], S(speed[i])).speed_out();
+            if (!out) return false;
+            y[i] = *out / S(speed[i]);
+        }
+        return true;
+    }
+
+    /// At each depth, with the rate that was measured there. Always true.
+    template <class S>
+    [[nodiscard]] bool forces_at_rates(AnyNormal<S> law, std::span<S> y) const {
+        const FitData& data = study_.data;
+        law.begin_impact(S(entry_speed()));
+        for (std::size_t i = 0; i < y.size(); ++i) {
+            y[i] = S(0);
+            if (!(data.x[i] > 0)) continue;
+            const double rate = data.rate.empty() ? 0 : data.rate[i];
+            const S force = law.template force<0>(S(std::sqrt(data.x[i])), S(rate)).total();
+            if (force > S(0)) y[i] = force;
+        }
+        return true;
+    }
+
+    /// Along one impact, at each time or depth. False where that cannot be followed.
+    template <class S>
+    [[nodiscard]] bool forces_of_impact(const AnyNormal<S>& law, const S* a, std::span<S> y) const {
+        const FitData& data = study_.data;
+        const ImpactTrace<S> impact(law, a[arguments_.mass], a[arguments_.speed]);
+        if (data.kind == Measured::force_indentation) return impact.force_at_depths(data.x, branches_, y);
+        const bool fitted = arguments_.touchdown != Arguments::none;
+        const S begin = fitted ? a[arguments_.touchdown] : S(study_.touchdown.value.value_or(0));
+        std::vector<S> times;
+        for (const double t : data.x) times.push_back(S(t) - begin);
+        return impact.force_at_times(times, y);
+    }
+
     [[nodiscard]] double sigma(std::size_t i) const { return study_.data.sigma.empty() ? 1 : study_.data.sigma[i]; }
 
     /// How fast the impact of a force-indentation trace began.
@@ -261,16 +273,6 @@ double start_of(const NormalLaw& law, std::string_view key, const FitStudy& stud
         }
         return std::exp(turning_point(low, high, small));
     });
-}
-
-void put(NormalLaw& law, std::string_view key, double value) {
-    std::visit(
-        [&]<class Law>(Law& l) {
-            for (const auto& parameter : Law::parameters()) {
-                if (parameter.key == key) l.*parameter.member = value;
-            }
-        },
-        law);
 }
 
 FitParameter free_parameter(const std::string& name, std::string unit, const FitValue& value, double start) {
