@@ -30,6 +30,11 @@ void require_positive(std::string_view name, double value, std::string_view unit
     require(std::isfinite(value) && value > 0, name, value, unit, "finite and > 0");
 }
 
+void check_range(double from, double to) {
+    require_positive("slowest speed", from, "m/s");
+    require(std::isfinite(to) && to > from, "fastest speed", to, "m/s", "finite and above the slowest");
+}
+
 /// A depth [m] of the size that an impact reaches: where the spring holds the energy that the impact brings, within a
 /// factor of two.
 double depth_scale(const NormalLaw& law, double mass, double speed, double gravity) {
@@ -135,8 +140,7 @@ std::optional<double> slowest_bounce(const NormalLaw& law, double mass, const Im
 
 std::optional<LogLinearRange> log_linear_range(const NormalLaw& law, double mass, double from, double to,
                                                double deviation) {
-    require_positive("slowest speed", from, "m/s");
-    require(std::isfinite(to) && to > from, "fastest speed", to, "m/s", "finite and above the slowest");
+    check_range(from, to);
     require_positive("deviation", deviation, "");
     const ImpactOptions exact{.gravity = 0, .tolerance = 1e-13};
     const auto e = [&](double x) { return normal_impact(law, mass, std::exp(x), exact).restitution; };
@@ -182,8 +186,7 @@ std::optional<LogLinearRange> log_linear_range(const NormalLaw& law, double mass
 namespace {
 
 void check_speeds(double from, double to, int count) {
-    require_positive("slowest speed", from, "m/s");
-    require(std::isfinite(to) && to > from, "fastest speed", to, "m/s", "finite and above the slowest");
+    check_range(from, to);
     if (count < 2) throw InvalidInput(fmt::format("the number of speeds is {}; it must be 2 or more", count));
 }
 

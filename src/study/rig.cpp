@@ -91,45 +91,46 @@ void require(bool good, const std::string& what, double value, std::string_view 
     if (!good) throw InvalidInput(fmt::format("{}: {:.6g} is not allowed: must be {}", what, value, allowed));
 }
 
-void check_part(const PathPart& part, const std::string& who, double end) {
-    std::visit(
-        [&]<class Part>(const Part& p) {
-            if constexpr (std::is_same_v<Part, ConstantPart>) {
-                require(std::isfinite(p.value), who + ": value", p.value, "finite");
-            } else if constexpr (std::is_same_v<Part, TablePart>) {
-                if (p.time.size() != p.value.size())
-                    throw InvalidInput(
-                        fmt::format("{}: a table has {} times and {} values", who, p.time.size(), p.value.size()));
-                if (p.time.size() < 2) throw InvalidInput(who + ": a table needs at least two points");
-                for (std::size_t k = 0; k < p.time.size(); ++k) {
-                    require(std::isfinite(p.time[k]) && (k == 0 || p.time[k] > p.time[k - 1]), who + ": time",
-                            p.time[k], "finite and after the one before it");
-                    require(std::isfinite(p.value[k]), who + ": value", p.value[k], "finite");
-                }
-            } else {
-                require(p.start >= 0 && std::isfinite(p.start), who + ": start", p.start, "finite and >= 0");
-                if constexpr (std::is_same_v<Part, RampPart>) {
-                    require(std::isfinite(p.change), who + ": change", p.change, "finite");
-                    require(p.duration > 0 && std::isfinite(p.duration), who + ": duration", p.duration,
-                            "finite and > 0");
-                } else {
-                    require(std::isfinite(p.amplitude), who + ": amplitude", p.amplitude, "finite");
-                    require(p.frequency > 0 && std::isfinite(p.frequency), who + ": frequency", p.frequency,
-                            "finite and > 0");
-                    require(p.cycles > 0, who + ": cycles", p.cycles, "> 0");
-                    require(p.frequency * end < most_breaks, who + ": frequency", p.frequency,
-                            fmt::format("below {:.3g}, so that the run has fewer than {:.0e} cycles", most_breaks / end,
-                                        most_breaks));
-                }
-                if constexpr (std::is_same_v<Part, SinePart>)
-                    require(std::isfinite(p.phase), who + ": phase", p.phase, "finite");
-            }
-        },
-        part);
+void check_start(double start, const std::string& who) {
+    require(start >= 0 && std::isfinite(start), who + ": start", start, "finite and >= 0");
+}
+
+void check_part(const ConstantPart& p, const std::string& who, double /*end*/) {
+    require(std::isfinite(p.value), who + ": value", p.value, "finite");
+}
+void check_part(const RampPart& p, const std::string& who, double /*end*/) {
+    check_start(p.start, who);
+    require(std::isfinite(p.change), who + ": change", p.change, "finite");
+    require(p.duration > 0 && std::isfinite(p.duration), who + ": duration", p.duration, "finite and > 0");
+}
+/// What a sine and a triangle have in common.
+template <class Wave>
+void check_wave(const Wave& p, const std::string& who, double end) {
+    check_start(p.start, who);
+    require(std::isfinite(p.amplitude), who + ": amplitude", p.amplitude, "finite");
+    require(p.frequency > 0 && std::isfinite(p.frequency), who + ": frequency", p.frequency, "finite and > 0");
+    require(p.cycles > 0, who + ": cycles", p.cycles, "> 0");
+    require(p.frequency * end < most_breaks, who + ": frequency", p.frequency,
+            fmt::format("below {:.3g}, so that the run has fewer than {:.0e} cycles", most_breaks / end, most_breaks));
+}
+void check_part(const SinePart& p, const std::string& who, double end) {
+    check_wave(p, who, end);
+    require(std::isfinite(p.phase), who + ": phase", p.phase, "finite");
+}
+void check_part(const TrianglePart& p, const std::string& who, double end) { check_wave(p, who, end); }
+void check_part(const TablePart& p, const std::string& who, double /*end*/) {
+    if (p.time.size() != p.value.size())
+        throw InvalidInput(fmt::format("{}: a table has {} times and {} values", who, p.time.size(), p.value.size()));
+    if (p.time.size() < 2) throw InvalidInput(who + ": a table needs at least two points");
+    for (std::size_t k = 0; k < p.time.size(); ++k) {
+        require(std::isfinite(p.time[k]) && (k == 0 || p.time[k] > p.time[k - 1]), who + ": time", p.time[k],
+                "finite and after the one before it");
+        require(std::isfinite(p.value[k]), who + ": value", p.value[k], "finite");
+    }
 }
 
 void check_path(const Path& path, const std::string& who, double end) {
-    for (const PathPart& part : path.parts()) check_part(part, who, end);
+    for (const PathPart& part : path.parts()) std::visit([&](const auto& p) { check_part(p, who, end); }, part);
 }
 void check_path(const PlanePath& path, const std::string& who, double end) {
     for (const Path& component : path) check_path(component, who, end);
