@@ -104,7 +104,7 @@ public:
         std::set<std::string> meant;
         if (complete) meant = refuse_unknown(node, table, keys, path);
         for (const Key* key : keys) {
-            const std::string name = path.empty() ? key->name : path + "." + key->name;
+            const std::string name = name_of(*key, path);
             const toml::node* value = node.get(key->name);
             if (value && !key->refused.empty()) {
                 add(position_of(key_of(node, key->name).source()), name, key->refused);
@@ -121,6 +121,10 @@ public:
     }
 
 private:
+    static std::string name_of(const Key& key, const std::string& path) {
+        return path.empty() ? key.name : path + "." + key.name;
+    }
+
     static const toml::key& key_of(const toml::table& node, std::string_view name) { return node.find(name)->first; }
 
     void add(Position at, const std::string& name, const std::string& message) {
@@ -162,7 +166,7 @@ private:
     }
 
     void refuse_missing(Position at, const Key& key, const std::string& path) {
-        const std::string name = path.empty() ? key.name : path + "." + key.name;
+        const std::string name = name_of(key, path);
         if (key.form == Form::table) {
             problems_.add(at, fmt::format("the table [{}] is missing: {}", name, key.description));
         } else if (key.form == Form::tables) {

@@ -3,13 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -19,27 +14,14 @@
 #include "footfall/io/units.hpp"
 #include "io/nearest.hpp"
 #include "io/problems.hpp"
+#include "io/read.hpp"
 
 namespace footfall {
 namespace {
 
+using io::plain_number;
 using io::Position;
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blank = " \t\r";
-    const std::size_t first = text.find_first_not_of(blank);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blank) - first + 1);
-}
-
-/// A number and nothing else; it may be infinite or NaN.
-std::optional<double> plain_number(std::string_view text) {
-    if (text.starts_with('+')) text.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || text.empty()) return std::nullopt;
-    return value;
-}
+using io::trimmed;
 
 // The file ------------------------------------------------------------------------------------------------------------
 
@@ -233,20 +215,7 @@ double read_number(std::string_view text, std::string_view unit, bool plain_only
 
 }  // namespace
 
-FitData load_fit_data(const std::filesystem::path& file) {
-    const auto fail = [&](int error) {
-        throw std::system_error(error != 0 ? error : EIO, std::generic_category(),
-                                fmt::format("cannot read {}", file.string()));
-    };
-    // A directory opens as a file on some systems and reads as an empty one.
-    if (std::filesystem::is_directory(file)) fail(EISDIR);
-    errno = 0;
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) fail(errno);
-    const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (stream.bad()) fail(errno);
-    return parse_fit_data(text, file.string());
-}
+FitData load_fit_data(const std::filesystem::path& file) { return parse_fit_data(io::read_file(file), file.string()); }
 
 FitData parse_fit_data(std::string_view text, const std::string& name) { return Reader(name).read(text); }
 

@@ -1,7 +1,8 @@
-// Ranges in words.
+// Ranges in words, and keys for tables.
 #include "io/keys.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,12 @@ std::string Range::words(const std::string& unit) const {
     if (!std::isfinite(low)) return below;
     if (!low_open && !high_open) return fmt::format("from {} to {}", bound(low, unit), bound(high, unit));
     return fmt::format("{} and {}", above, below);
+}
+
+Key table_key(std::string name, Table table, bool required) {
+    Key key{.name = std::move(name), .form = Form::table, .required = required, .description = table.description};
+    key.tables.push_back(std::move(table));
+    return key;
 }
 
 }  // namespace footfall::io

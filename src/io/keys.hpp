@@ -83,4 +83,7 @@ struct Table {
     std::string without_keys = {};  ///< why there are no keys, where there are none
 };
 
+/// A key for a table, with the description that the table has.
+[[nodiscard]] Key table_key(std::string name, Table table, bool required = false);
+
 }  // namespace footfall::io

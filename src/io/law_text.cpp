@@ -1,7 +1,6 @@
 #include "footfall/io/law_text.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -11,15 +10,13 @@
 
 #include "footfall/io/units.hpp"
 #include "io/nearest.hpp"
+#include "io/read.hpp"
 
 namespace footfall {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
+/// A line of text that is no line of a file does not end with a carriage return.
+std::string_view trimmed(std::string_view text) { return io::trimmed(text, " \t"); }
 
 /// One "key=value" as it was written.
 struct Setting {
@@ -55,18 +52,9 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& wo
     return meant.empty() ? "." : meant;
 }
 
-/// `text` as a number and nothing else.
-std::optional<double> plain_number(std::string_view text) {
-    if (text.starts_with('+')) text.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
 template <class Law>
 double read_value(const Parameter<Law>& parameter, std::string_view text) {
-    const std::optional<double> plain = plain_number(text);
+    const std::optional<double> plain = io::plain_number(text);
     if (!plain && parameter.unit_depends) {
         throw InvalidInput(
             fmt::format("expected a plain number (its unit depends on other parameters), got '{}'", text));

@@ -1,18 +1,16 @@
 // From a rig file to a Rig.
 #include "footfall/io/rig.hpp"
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <optional>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "io/document.hpp"
 #include "io/nearest.hpp"
+#include "io/read.hpp"
 #include "io/scenario_keys.hpp"
 
 namespace footfall {
@@ -34,22 +32,22 @@ Key number_key(std::string name, std::string unit, std::string example, std::str
             .example = std::move(example),
             .description = std::move(description)};
 }
+Key required(Key key) {
+    key.required = true;
+    return key;
+}
+Key with_default(Key key, double fallback) {
+    key.fallback = {fallback};
+    return key;
+}
+Key within(Key key, io::Range range) {
+    key.range = range;
+    return key;
+}
 
 /// One part of a path whose values have this unit.
 Table part_table(const std::string& unit, bool in_plane) {
     const std::string example = fmt::format("\"1 {}\"", unit);
-    const auto required = [](Key key) {
-        key.required = true;
-        return key;
-    };
-    const auto with_default = [](Key key, double fallback) {
-        key.fallback = {fallback};
-        return key;
-    };
-    const auto within = [](Key key, io::Range range) {
-        key.range = range;
-        return key;
-    };
     const Key start = within(with_default(number_key("start", "s", "\"1 s\"", "when it begins"), 0), io::not_negative);
     const Key frequency =
         within(required(number_key("frequency", "Hz", "\"1 Hz\"", "cycles in a second")), io::positive);
@@ -105,39 +103,33 @@ Key path_key(std::string name, const std::string& unit, bool in_plane, std::stri
 }
 
 Table mass_table() {
-    Key mass = number_key("mass", "kg", "\"1 kg\"", "m, mass");
-    mass.required = true;
-    mass.range = io::positive;
-    Key stiffness = number_key("stiffness", "N/m", "\"1e3 N/m\"", "of the spring to the support");
-    stiffness.range = io::not_negative;
-    stiffness.fallback = {0};
-    Key damping = number_key("damping", "N s/m", "\"1 N s/m\"", "of the damper beside the spring");
-    damping.range = io::not_negative;
-    damping.fallback = {0};
-    return {.description = "A mass over the ground, held by a spring and a damper",
-            .keys = {std::move(mass), std::move(stiffness), std::move(damping),
-                     path_key("support", "m", true, "displacement of the spring's far end"),
-                     path_key("force", "N", true, "a force on the mass"),
-                     path_key("belt", "m/s", true, "velocity of the ground")}};
+    return {
+        .description = "A mass over the ground, held by a spring and a damper",
+        .keys = {
+            within(required(number_key("mass", "kg", "\"1 kg\"", "m, mass")), io::positive),
+            within(with_default(number_key("stiffness", "N/m", "\"1e3 N/m\"", "of the spring to the support"), 0),
+                   io::not_negative),
+            within(with_default(number_key("damping", "N s/m", "\"1 N s/m\"", "of the damper beside the spring"), 0),
+                   io::not_negative),
+            path_key("support", "m", true, "displacement of the spring's far end"),
+            path_key("force", "N", true, "a force on the mass"),
+            path_key("belt", "m/s", true, "velocity of the ground")}};
 }
 
 Table rig_table() {
-    Key end = number_key("end", "s", "\"1 s\"", "how long to drive");
-    end.required = true;
-    end.range = io::positive;
-    Key sample = number_key("sample", "s", "\"1 ms\"", "output period");
-    sample.range = io::positive;
+    Key mass = io::table_key("mass", mass_table());
+    mass.description = "a mass over the ground";
+    Key sample = within(number_key("sample", "s", "\"1 ms\"", "output period"), io::positive);
     sample.fallback_text = "end / 1000";
-    Key tolerance = number_key("tolerance", "1", "1e-10", "relative error of a step");
-    tolerance.range = {1e-14, 1e-3};
-    tolerance.fallback = {1e-10};
-    Key budget = number_key("max_evaluations", "1", "1e9", "a run that needs more evaluations is stopped");
-    budget.range = {1};
-    budget.fallback = {1e8};
-    Key mass{.name = "mass", .form = Form::table, .description = "a mass over the ground"};
-    mass.tables.push_back(mass_table());
     return {.description = "How the contact is driven",
-            .keys = {std::move(end), std::move(sample), std::move(tolerance), std::move(budget),
+            .keys = {within(required(number_key("end", "s", "\"1 s\"", "how long to drive")), io::positive),
+                     std::move(sample),
+                     within(with_default(number_key("tolerance", "1", "1e-10", "relative error of a step"), 1e-10),
+                            {1e-14, 1e-3}),
+                     within(with_default(number_key("max_evaluations", "1", "1e9",
+                                                    "a run that needs more evaluations is stopped"),
+                                         1e8),
+                            {1}),
                      path_key("indentation", "m", false, "z; negative above the ground"),
                      path_key("load", "N", false, "F_n, > 0; the depth follows without inertia or damping"),
                      path_key("displacement", "m", true, "slip displacement"),
@@ -153,30 +145,19 @@ Table table_of(const io::Choices& choices) {
         for (const Key& part : key.tables.front().keys)
             if (part.name == "normal" || part.name == "friction") contact.keys.push_back(part);
     }
-    const auto table_key = [](std::string name, Table table) {
-        Key key{.name = std::move(name), .form = Form::table, .required = true, .description = table.description};
-        key.tables.push_back(std::move(table));
-        return key;
-    };
     return {.description = "A test rig of footfall",
             .keys = {{.name = "title", .form = Form::text, .example = "\"A loop\"", .description = "one line about it"},
-                     table_key("rig", rig_table()),
-                     table_key("contact", std::move(contact))}};
+                     io::table_key("rig", rig_table(), true),
+                     io::table_key("contact", std::move(contact), true)}};
 }
 
 // Tables of points ----------------------------------------------------------------------------------------------------
-
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t\r");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 std::vector<std::string> cells_of(std::string_view line) {
     std::vector<std::string> cells;
     for (;;) {
         const std::size_t comma = line.find(',');
-        cells.emplace_back(trimmed(line.substr(0, comma)));
+        cells.emplace_back(io::trimmed(line.substr(0, comma)));
         if (comma == std::string_view::npos) return cells;
         line.remove_prefix(comma + 1);
     }
@@ -192,7 +173,7 @@ TablePart read_points(const std::filesystem::path& file, const std::string& time
     std::size_t width = 0;
     std::string line;
     for (int number = 1; std::getline(stream, line); ++number) {
-        const std::string_view content = trimmed(line);
+        const std::string_view content = io::trimmed(line);
         if (content.empty() || content.front() == '#') continue;
         const auto fail = [&](const std::string& what) {
             throw InvalidInput(fmt::format("{}:{}: {}", file.string(), number, what));
@@ -229,8 +210,7 @@ TablePart read_points(const std::filesystem::path& file, const std::string& time
     return table;
 }
 
-// The rig
-// ---------------------------------------------------------------------------------------------------------------
+// The rig -------------------------------------------------------------------------------------------------------------
 
 class Builder {
 public:
@@ -348,19 +328,6 @@ RigFile parse_rig(const std::string& text, const std::filesystem::path& name) {
     return file;
 }
 
-RigFile load_rig(const std::filesystem::path& file) {
-    const auto fail = [&file](int error) {
-        throw std::system_error(error != 0 ? error : EIO, std::generic_category(),
-                                fmt::format("cannot read {}", file.string()));
-    };
-    // A directory opens as a file on some systems and reads as an empty one.
-    if (std::filesystem::is_directory(file)) fail(EISDIR);
-    errno = 0;
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) fail(errno);
-    const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (stream.bad()) fail(errno);
-    return parse_rig(text, file);
-}
+RigFile load_rig(const std::filesystem::path& file) { return parse_rig(io::read_file(file), file); }
 
 }  // namespace footfall

@@ -1,13 +1,9 @@
 // From a scenario file to a Simulation: the checks that need more than one key, and the defaults that depend on others.
 #include "footfall/io/scenario.hpp"
 
-#include <cerrno>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <type_traits>
 
 #include <Eigen/Eigenvalues>
@@ -16,6 +12,7 @@
 #include "footfall/material/material.hpp"
 #include "footfall/simulate/run.hpp"
 #include "io/document.hpp"
+#include "io/read.hpp"
 #include "io/scenario_keys.hpp"
 
 namespace footfall {
@@ -280,19 +277,6 @@ Scenario parse_scenario(std::string text, const std::string& name) {
     return scenario;
 }
 
-Scenario load_scenario(const std::filesystem::path& file) {
-    const auto fail = [&file](int error) {
-        throw std::system_error(error != 0 ? error : EIO, std::generic_category(),
-                                fmt::format("cannot read {}", file.string()));
-    };
-    // A directory opens as a file on some systems and reads as an empty one.
-    if (std::filesystem::is_directory(file)) fail(EISDIR);
-    errno = 0;
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) fail(errno);
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (stream.bad()) fail(errno);
-    return parse_scenario(std::move(text), file.string());
-}
+Scenario load_scenario(const std::filesystem::path& file) { return parse_scenario(io::read_file(file), file.string()); }
 
 }  // namespace footfall

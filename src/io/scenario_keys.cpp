@@ -333,12 +333,6 @@ Table ground_table() {
             .one_of = {{{"normal", "slope"}}}};
 }
 
-Key table_key(std::string name, Table table, bool required = false) {
-    Key key{.name = std::move(name), .form = Form::table, .required = required, .description = table.description};
-    key.tables.push_back(std::move(table));
-    return key;
-}
-
 }  // namespace
 
 Table scenario_table(const Choices& choices) {

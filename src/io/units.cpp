@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "io/nearest.hpp"
+#include "io/read.hpp"
 
 namespace footfall {
 namespace {
@@ -229,11 +230,7 @@ private:
     int nesting_ = 0;
 };
 
-std::string_view trimmed(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
+std::string_view trimmed(std::string_view text) { return io::trimmed(text, " \t"); }
 
 /// A decimal number as it is written: its digits with sign and point, and its power of ten.
 struct Decimal {
