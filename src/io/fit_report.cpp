@@ -116,8 +116,72 @@ std::string law_report(const FitStudyResult& result, const LawFit& fit) {
     return page;
 }
 
-// A number that JSON has no word for is null.
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+// JSON ----------------------------------------------------------------------------------------------------------------
+
+/// A number; null where there is none, or where JSON has no word for it.
+Json finite(std::optional<double> value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); }
+
+Json estimate_of(const FitEstimate& e) {
+    const auto bound = [&e](double FitInterval::*end) {
+        return e.interval ? finite((*e.interval).*end) : Json(nullptr);
+    };
+    return {{"name", e.name},
+            {"unit", e.unit},
+            {"value", finite(e.value)},
+            {"fixed", e.fixed},
+            {"at_bound", e.at_bound},
+            {"standard_error", finite(e.standard_error)},
+            {"low", bound(&FitInterval::low)},
+            {"high", bound(&FitInterval::high)}};
+}
+
+Json combination_of(const FitCombination& c, const std::vector<FitEstimate>& estimates) {
+    Json exponents = Json::object();
+    for (std::size_t i = 0; i < c.exponents.size(); ++i) {
+        if (c.exponents[i] != 0) exponents[estimates[i].name] = c.exponents[i];
+    }
+    return {{"text", c.text},
+            {"exponents", exponents},
+            {"unit", unit_of(c, estimates)},
+            {"value", finite(c.value)},
+            {"standard_error", finite(c.standard_error)},
+            {"low", finite(c.interval.low)},
+            {"high", finite(c.interval.high)}};
+}
+
+/// `each(item)` for every item of a list.
+template <class List, class Each>
+Json array_of(const List& list, const Each& each) {
+    Json array = Json::array();
+    for (const auto& item : list) array.push_back(each(item));
+    return array;
+}
+
+Json law_fit_of(const LawFit& fit, const FitData& data) {
+    const FitResult& r = fit.result;
+    Json residuals = Json::array();
+    for (std::size_t i = 0; i < data.y.size(); ++i) residuals.push_back(finite(data.y[i] - fit.model[i]));
+    return {{"law", name_of(fit.law)},
+            {"text", law_text(fit.law)},
+            {"estimates", array_of(r.estimates, estimate_of)},
+            {"combinations",
+             array_of(r.combinations, [&r](const FitCombination& c) { return combination_of(c, r.estimates); })},
+            {"correlation", array_of(r.correlation, [](const auto& line) { return array_of(line, finite); })},
+            {"rms", finite(fit.rms)},
+            {"noise", finite(r.noise)},
+            {"degrees_of_freedom", r.degrees_of_freedom},
+            {"aicc", finite(r.aicc)},
+            {"aicc_difference", finite(fit.aicc_difference)},
+            {"weight", finite(fit.weight)},
+            {"condition", finite(r.condition)},
+            {"warnings", r.warnings},
+            {"converged", r.converged},
+            {"iterations", r.iterations},
+            {"evaluations", r.evaluations},
+            {"starts_tried", r.starts_tried},
+            {"starts_agreeing", r.starts_agreeing},
+            {"residuals", residuals}};
+}
 
 }  // namespace
 
@@ -141,59 +205,7 @@ std::string report(const FitStudyResult& result) {
 std::string to_json(const FitStudyResult& result) {
     const FitData& data = result.study.data;
     Json laws = Json::array();
-    for (const LawFit& fit : result.fits) {
-        const FitResult& r = fit.result;
-        Json estimates = Json::array(), combinations = Json::array(), correlation = Json::array(),
-             residuals = Json::array();
-        for (const FitEstimate& e : r.estimates) {
-            estimates.push_back({{"name", e.name},
-                                 {"unit", e.unit},
-                                 {"value", finite(e.value)},
-                                 {"fixed", e.fixed},
-                                 {"at_bound", e.at_bound},
-                                 {"standard_error", e.standard_error ? finite(*e.standard_error) : Json(nullptr)},
-                                 {"low", e.interval ? finite(e.interval->low) : Json(nullptr)},
-                                 {"high", e.interval ? finite(e.interval->high) : Json(nullptr)}});
-        }
-        for (const FitCombination& c : r.combinations) {
-            Json exponents = Json::object();
-            for (std::size_t i = 0; i < c.exponents.size(); ++i) {
-                if (c.exponents[i] != 0) exponents[r.estimates[i].name] = c.exponents[i];
-            }
-            combinations.push_back({{"text", c.text},
-                                    {"exponents", exponents},
-                                    {"unit", unit_of(c, r.estimates)},
-                                    {"value", finite(c.value)},
-                                    {"standard_error", finite(c.standard_error)},
-                                    {"low", finite(c.interval.low)},
-                                    {"high", finite(c.interval.high)}});
-        }
-        for (const auto& line : r.correlation) {
-            Json numbers = Json::array();
-            for (const double value : line) numbers.push_back(finite(value));
-            correlation.push_back(std::move(numbers));
-        }
-        for (std::size_t i = 0; i < data.y.size(); ++i) residuals.push_back(finite(data.y[i] - fit.model[i]));
-        laws.push_back({{"law", name_of(fit.law)},
-                        {"text", law_text(fit.law)},
-                        {"estimates", estimates},
-                        {"combinations", combinations},
-                        {"correlation", correlation},
-                        {"rms", finite(fit.rms)},
-                        {"noise", finite(r.noise)},
-                        {"degrees_of_freedom", r.degrees_of_freedom},
-                        {"aicc", finite(r.aicc)},
-                        {"aicc_difference", finite(fit.aicc_difference)},
-                        {"weight", finite(fit.weight)},
-                        {"condition", finite(r.condition)},
-                        {"warnings", r.warnings},
-                        {"converged", r.converged},
-                        {"iterations", r.iterations},
-                        {"evaluations", r.evaluations},
-                        {"starts_tried", r.starts_tried},
-                        {"starts_agreeing", r.starts_agreeing},
-                        {"residuals", residuals}});
-    }
+    for (const LawFit& fit : result.fits) laws.push_back(law_fit_of(fit, data));
     const Json json{{"data", data.source},
                     {"kind", name_of(data.kind)},
                     {"count", data.x.size()},
