@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "context.hpp"
 #include "footfall/io/law_text.hpp"
 #include "footfall/io/rig.hpp"
 #include "footfall/io/table_output.hpp"
@@ -57,24 +58,19 @@ int drive_rig(const DriveArguments& arguments) {
     std::vector<RigRun> runs = laws_to_drive(arguments, file.laws);
     for (RigRun& run : runs) {
         const std::string where = fmt::format("{}: {}", arguments.rig.string(), run.named.name);
-        try {
-            run.named.drive = drive(file.rig, run.laws);
-        } catch (const InvalidInput& error) {
-            throw InvalidInput(fmt::format("{}: {}", where, error.what()));
-        } catch (const TooExpensive& error) {
-            throw TooExpensive(fmt::format("{}: {}", where, error.what()));
-        }
+        run.named.drive = in_context(where, [&] { return drive(file.rig, run.laws); });
     }
+    std::vector<std::filesystem::path> written;
     if (arguments.csv) {
         std::vector<NamedDrive> named;
         for (const RigRun& run : runs) named.push_back(run.named);
         write_csv(*arguments.csv, drive_table(file.rig, named));
+        written.push_back(*arguments.csv);
     }
     if (arguments.json) {
         print(to_json(file.rig, runs) + "\n");
     } else {
-        print(summary(file.rig, runs));
-        if (arguments.csv) print(fmt::format("\nWritten\n  {}\n", arguments.csv->string()));
+        print_page(summary(file.rig, runs), written);
     }
     return ExitCode::success;
 }

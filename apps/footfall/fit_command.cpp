@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "context.hpp"
 #include "footfall/io/fit_data.hpp"
 #include "footfall/io/fit_report.hpp"
 #include "footfall/io/table_output.hpp"
@@ -31,11 +32,7 @@ struct FitArguments {
 };
 
 FitValue read(const char* option, const std::string& text, const char* unit) {
-    try {
-        return parse_fit_value(text, unit);
-    } catch (const InvalidInput& error) {
-        throw InvalidInput(fmt::format("{}: {}", option, error.what()));
-    }
+    return in_context(option, [&] { return parse_fit_value(text, unit); });
 }
 
 FitStudy study_of(const FitArguments& arguments) {
@@ -69,13 +66,16 @@ FitStudy study_of(const FitArguments& arguments) {
 
 int run_fit(const FitArguments& arguments) {
     const FitStudyResult result = fit(study_of(arguments));
-    if (arguments.csv) write_csv(*arguments.csv, table(result));
+    std::vector<std::filesystem::path> written;
+    if (arguments.csv) {
+        write_csv(*arguments.csv, table(result));
+        written.push_back(*arguments.csv);
+    }
     if (arguments.json) {
         print(to_json(result) + "\n");
-        return ExitCode::success;
+    } else {
+        print_page(report(result), written);
     }
-    print(report(result));
-    if (arguments.csv) print(fmt::format("\nWritten\n  {}\n", arguments.csv->string()));
     return ExitCode::success;
 }
 

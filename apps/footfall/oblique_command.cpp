@@ -211,58 +211,59 @@ std::vector<std::string> cells_of(const std::string& line) {
     }
 }
 
+/// The one column that is neither angle nor spin.
+std::string observable_of(const std::vector<std::string>& head) {
+    std::string observable;
+    for (const std::string& name : head) {
+        if (name == "angle" || name == "spin") continue;
+        if (!observable.empty())
+            throw InvalidInput(fmt::format(
+                "there are two observables, '{}' and '{}'; give one, beside angle, spin or both", observable, name));
+        observable = name;
+    }
+    if (observable.empty() || head.size() < 2)
+        throw InvalidInput("expected a line of names: angle, spin or both, and one observable");
+    return observable;
+}
+
+void read_row(const ObliqueArguments& arguments, const std::vector<std::string>& head,
+              const std::vector<std::string>& cells, ObliqueMeasurement& measured) {
+    if (cells.size() != head.size())
+        throw InvalidInput(fmt::format("{} values for {} columns", cells.size(), head.size()));
+    double theta = 0, omega = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const double value = in_context(head[i], [&] { return to_si(cells[i], "1"); });
+        if (head[i] == "angle") {
+            theta = value * degree;
+        } else if (head[i] == "spin") {
+            omega = value;
+        } else {
+            measured.values.push_back(value);
+        }
+    }
+    measured.approaches.push_back(approach_of(arguments, theta, omega));
+}
+
 /// Reads a measured curve: lines of "#" are comments, the first other line names the columns: `angle` (degrees), `spin`
 /// (rad/s) or both, and one observable.
 ObliqueMeasurement read_measurement(const ObliqueArguments& arguments) {
     const std::string file = arguments.data.string();
     std::ifstream stream(arguments.data);
     if (!stream) throw std::system_error(errno, std::generic_category(), "cannot read " + file);
-    const auto wrong = [&file](int line, const std::string& what) {
-        return InvalidInput(fmt::format("{}:{}: {}", file, line, what));
-    };
     ObliqueMeasurement measured;
     std::vector<std::string> head;
     std::string line;
     for (int number = 1; std::getline(stream, line); ++number) {
         if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
-        const std::vector<std::string> cells = cells_of(line);
-        if (head.empty()) {
-            head = cells;
-            for (const std::string& name : head) {
-                if (name == "angle" || name == "spin") continue;
-                if (!measured.observable.empty())
-                    throw wrong(number, fmt::format("there are two observables, '{}' and '{}'; give one, beside angle, "
-                                                    "spin or both",
-                                                    measured.observable, name));
-                measured.observable = name;
-            }
-            if (measured.observable.empty() || head.size() < 2)
-                throw wrong(number, "expected a line of names: angle, spin or both, and one observable");
-            continue;
-        }
-        if (cells.size() != head.size())
-            throw wrong(number, fmt::format("{} values for {} columns", cells.size(), head.size()));
-        double theta = 0, omega = 0;
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            double value = 0;
-            try {
-                value = to_si(cells[i], "1");
-            } catch (const InvalidInput& error) {
-                throw wrong(number, fmt::format("{}: {}", head[i], error.what()));
-            }
-            if (head[i] == "angle") {
-                theta = value * degree;
-            } else if (head[i] == "spin") {
-                omega = value;
+        in_context(fmt::format("{}:{}", file, number), [&] {
+            const std::vector<std::string> cells = cells_of(line);
+            if (head.empty()) {
+                head = cells;
+                measured.observable = observable_of(head);
             } else {
-                measured.values.push_back(value);
+                read_row(arguments, head, cells, measured);
             }
-        }
-        try {
-            measured.approaches.push_back(approach_of(arguments, theta, omega));
-        } catch (const InvalidInput& error) {
-            throw wrong(number, error.what());
-        }
+        });
     }
     if (measured.values.empty()) throw InvalidInput(file + ": there are no measurements in it");
     return measured;

@@ -3,20 +3,17 @@
 
 #include <string_view>
 
-#include <fmt/format.h>
-
+#include "context.hpp"
 #include "footfall/io/units.hpp"
 
 namespace footfall::cli {
 
 /// The SI value of what was given for `option`; `unit` is its SI unit. Throws InvalidInput, naming the option.
 [[nodiscard]] inline double quantity(std::string_view option, std::string_view text, std::string_view unit) {
-    try {
+    return in_context(option, [&] {
         const Quantity read = parse_quantity(text);
         return read.dimension == Dimension{} ? read.value : to_si(text, unit);
-    } catch (const InvalidInput& error) {
-        throw InvalidInput(fmt::format("{}: {}", option, error.what()));
-    }
+    });
 }
 
 }  // namespace footfall::cli

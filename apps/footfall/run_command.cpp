@@ -2,11 +2,14 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "commands.hpp"
+#include "context.hpp"
 #include "footfall/io/output.hpp"
 #include "footfall/io/scenario.hpp"
 #include "footfall/simulate/run.hpp"
@@ -40,37 +43,32 @@ int run_scenario(const RunArguments& arguments) {
         return SignalGuard::received() == 0;
     };
     const std::string name = arguments.scenario.string();
-    const Run result = [&] {
+    const Run result = in_context(name, [&] {
         try {
             Run done = run(scenario.simulation);
             if (SignalGuard::received() != 0) throw Interrupted("after the last step");
             return done;
-        } catch (const InvalidInput& error) {
-            throw InvalidInput(fmt::format("{}: {}", name, error.what()));
-        } catch (const TooExpensive& error) {
-            throw TooExpensive(fmt::format("{}: {}", name, error.what()));
         } catch (const Interrupted&) {
             throw Interrupted(fmt::format("{}: interrupted; nothing was written", name));
         }
-    }();
+    });
     bar.clear();
 
-    std::string written;
+    std::vector<std::filesystem::path> written;
     if (arguments.netcdf) {
         write_netcdf(*arguments.netcdf, scenario, result);
-        written += fmt::format("  {}\n", arguments.netcdf->string());
+        written.push_back(*arguments.netcdf);
     }
     if (arguments.csv_directory) {
         write_csv(*arguments.csv_directory, scenario, result);
         for (const char* table : {"samples.csv", "events.csv", "impacts.csv"}) {
-            written += fmt::format("  {}\n", (*arguments.csv_directory / table).string());
+            written.push_back(*arguments.csv_directory / table);
         }
     }
     if (arguments.json) {
         print(to_json(scenario, result) + "\n");
     } else if (!arguments.quiet) {
-        print(summary(scenario, result));
-        if (!written.empty()) print("\nWritten\n" + written);
+        print_page(summary(scenario, result), written);
     }
     return ExitCode::success;
 }

@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -34,6 +33,12 @@ void print(std::string_view text) {
     if (!written) {
         throw std::runtime_error("cannot write to standard output: " + std::generic_category().message(errno));
     }
+}
+
+void print_page(std::string page, std::span<const std::filesystem::path> written) {
+    if (!written.empty()) page += "\nWritten\n";
+    for (const std::filesystem::path& file : written) page += fmt::format("  {}\n", file.string());
+    print(page);
 }
 
 SignalGuard::SignalGuard() {

@@ -2,13 +2,19 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
+#include <span>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace footfall::cli {
 
 /// Prints to standard output. Throws std::runtime_error where it cannot be written.
 void print(std::string_view text);
+
+/// Prints a page and, under it, the names of the files that were written, if there are any. Throws as print does.
+void print_page(std::string page, std::span<const std::filesystem::path> written);
 
 /// While it lives, SIGINT and SIGTERM are remembered instead of ending the program; a second one ends it.
 class SignalGuard {
