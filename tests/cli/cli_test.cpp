@@ -10,33 +10,21 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <pty.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "cli/program.hpp"
 #include "footfall/law/registry.hpp"
 #include "footfall/version.hpp"
-#include "io/temporary_folder.hpp"
 
 extern char** environ;
 
 namespace footfall::test {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
-
-/// The words are somewhere in the text.
-bool contains(const std::string& text, std::string_view words) { return text.find(words) != std::string::npos; }
-
-struct Result {
-    int exit_code;  ///< as a shell gives it: 128 + the signal's number where one ended the program
-    std::string out, err;
-};
-
-int exit_code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
 
 /// The ball of the paper's section 4 without friction; `time` is the table [time].
 std::string scenario(const std::string& time = "end = 0.15\nsample = 1e-3\n", const std::string& solver = "",

@@ -1,51 +1,17 @@
 // footfall drive, as a user meets it.
-#include <array>
-#include <cmath>
-#include <cstdio>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
-#include "io/temporary_folder.hpp"
+#include "cli/program.hpp"
 
 namespace footfall::test {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-struct Answer {
-    int exit_code;
-    std::string out, err;
-};
-
-class DriveCli : public ::testing::Test {
+class DriveCli : public ProgramTest {
 protected:
-    TemporaryFolder folder;
-
-    /// Runs `footfall drive` with words for a shell.
-    Answer drive(const std::string& words) const {
-        const std::string err = (folder / ".err").string();
-        const std::string command = std::string(FOOTFALL_CLI) + " drive " + words + " 2>" + err;
-        std::string out;
-        std::FILE* pipe = ::popen(command.c_str(), "r");
-        EXPECT_NE(pipe, nullptr);
-        std::array<char, 4096> buffer;
-        for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) out.append(buffer.data(), n);
-        const int status = ::pclose(pipe);
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, std::move(out), read_text(err)};
-    }
-
-    static std::vector<double> column(const Json& json, const std::string& name, const std::string& series = "") {
-        for (const Json& c : json["samples"]) {
-            if (c["name"] == name && c["series"] == series) return c["values"].get<std::vector<double>>();
-        }
-        ADD_FAILURE() << "no column " << series << "." << name;
-        return {};
-    }
+    Result drive(const std::string& words) const { return footfall("drive " + words); }
 };
 
 const std::string rigs = FOOTFALL_SOURCE_DIR "/scenarios/rigs/";
@@ -53,7 +19,7 @@ const std::string loop = rigs + "presliding-loop.toml ";
 const std::string clutch = "--friction linear:stiffness=1e5,damping=0,coefficient=0.4 ";
 
 TEST_F(DriveCli, JsonHasLawsEventsEnergiesAndSamples) {
-    const Answer answer = drive(loop + clutch + "--json");
+    const Result answer = drive(loop + clutch + "--json");
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
     EXPECT_EQ(answer.err, "");
     const Json json = Json::parse(answer.out);
@@ -66,14 +32,15 @@ TEST_F(DriveCli, JsonHasLawsEventsEnergiesAndSamples) {
     // 40 um of give, 30 um of way: nothing slides, and a spring without a damper takes nothing.
     EXPECT_EQ(run["events"].size(), 2u);
     EXPECT_NEAR(run["energy"]["clutch"].get<double>(), 0, 1e-15);
-    const std::vector<double> x = column(json, "slip_displacement_x"), F = column(json, "friction_force_x");
-    ASSERT_EQ(x.size(), column(json, "time").size());
+    const std::vector<double> x = column(json["samples"], "slip_displacement_x"),
+                              F = column(json["samples"], "friction_force_x");
+    ASSERT_EQ(x.size(), column(json["samples"], "time").size());
     for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(F[i], -1e5 * x[i], 1e-9);
 }
 
 TEST_F(DriveCli, LawsStandSideBySideInOneTable) {
     const std::string file = (folder / "loops.csv").string();
-    const Answer answer = drive(loop + clutch + clutch + "--friction none --csv " + file);
+    const Result answer = drive(loop + clutch + clutch + "--friction none --csv " + file);
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
     for (const char* words : {"Pre-sliding loops", "linear (2)", "none", "Written"})
         EXPECT_NE(answer.out.find(words), std::string::npos) << words << "\n" << answer.out;
@@ -83,7 +50,7 @@ TEST_F(DriveCli, LawsStandSideBySideInOneTable) {
 }
 
 TEST_F(DriveCli, NormalLawsAreComparedToo) {
-    const Answer answer = drive(rigs +
+    const Result answer = drive(rigs +
                                 "force-indentation.toml --normal hertz:stiffness=8.5e6 "
                                 "--normal azad-featherstone:stiffness=8.5e6,damping=3.1e3 --json");
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
@@ -98,7 +65,7 @@ TEST_F(DriveCli, NormalLawsAreComparedToo) {
 
 TEST_F(DriveCli, ToleranceTakesThePlaceOfTheFiles) {
     const auto steps = [&](const std::string& tolerance) {
-        const Answer answer = drive(rigs + "stick-slip-belt.toml --json --tolerance " + tolerance);
+        const Result answer = drive(rigs + "stick-slip-belt.toml --json --tolerance " + tolerance);
         EXPECT_EQ(answer.exit_code, 0) << answer.err;
         return Json::parse(answer.out)["runs"][0]["steps"].get<int>();
     };
@@ -107,7 +74,7 @@ TEST_F(DriveCli, ToleranceTakesThePlaceOfTheFiles) {
 
 TEST_F(DriveCli, WrongInputIsSaidAndExitsWithTwo) {
     const auto expect = [&](const std::string& words, const std::string& said) {
-        const Answer answer = drive(words);
+        const Result answer = drive(words);
         EXPECT_EQ(answer.exit_code, 2) << words;
         EXPECT_EQ(answer.out, "");
         EXPECT_NE(answer.err.find(said), std::string::npos) << answer.err;
@@ -123,7 +90,7 @@ TEST_F(DriveCli, WrongInputIsSaidAndExitsWithTwo) {
 }
 
 TEST_F(DriveCli, HelpHasAnExampleThatRuns) {
-    const Answer help = drive("--help");
+    const Result help = drive("--help");
     ASSERT_EQ(help.exit_code, 0);
     EXPECT_NE(help.out.find("footfall drive scenarios/rigs/presliding-loop.toml"), std::string::npos);
     EXPECT_EQ(drive(loop).exit_code, 0);

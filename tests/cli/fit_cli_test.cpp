@@ -1,45 +1,19 @@
 // footfall fit as a user runs it: streams, exit codes, files.
-#include <array>
-#include <cstdio>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
-#include "io/temporary_folder.hpp"
+#include "cli/program.hpp"
 
 namespace footfall::test {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-bool contains(const std::string& text, std::string_view words) { return text.find(words) != std::string::npos; }
-
-struct Result {
-    int exit_code;
-    std::string out, err;
-};
-
-class FitCli : public ::testing::Test {
+class FitCli : public ProgramTest {
 protected:
-    TemporaryFolder folder;
     const std::string data = std::string(FOOTFALL_SOURCE_DIR) + "/data/synthetic/";
     const std::string paper = " --normal azad-featherstone:stiffness=?,damping=?";
 
-    [[nodiscard]] Result fit(const std::string& arguments) const {
-        const std::string err = (folder / ".err").string();
-        std::FILE* pipe = ::popen((std::string(FOOTFALL_CLI) + " fit " + arguments + " 2> " + err).c_str(), "r");
-        Result result{};
-        std::array<char, 4096> buffer{};
-        while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
-            result.out.append(buffer.data(), count);
-        }
-        result.exit_code = WEXITSTATUS(::pclose(pipe));
-        result.err = read_text(err);
-        std::filesystem::remove(err);
-        return result;
-    }
+    [[nodiscard]] Result fit(const std::string& arguments) const { return footfall("fit " + arguments); }
 };
 
 TEST_F(FitCli, ReportsTheTraceThatIsShipped) {

@@ -1,52 +1,19 @@
 // footfall oblique, as a user meets it.
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
-#include "io/temporary_folder.hpp"
+#include "cli/program.hpp"
 
 namespace footfall::test {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-struct Answer {
-    int exit_code;
-    std::string out, err;
-};
-
-class ObliqueCli : public ::testing::Test {
+class ObliqueCli : public ProgramTest {
 protected:
-    TemporaryFolder folder;
-
-    /// Runs `footfall oblique` with words for a shell.
-    Answer oblique(const std::string& words) const {
-        const std::string err = (folder / ".err").string();
-        const std::string command = std::string(FOOTFALL_CLI) + " oblique " + words + " 2>" + err;
-        std::string out;
-        std::FILE* pipe = ::popen(command.c_str(), "r");
-        EXPECT_NE(pipe, nullptr);
-        std::array<char, 4096> buffer;
-        for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) out.append(buffer.data(), n);
-        const int status = ::pclose(pipe);
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, std::move(out), read_text(err)};
-    }
-
-    static std::vector<double> column(const Json& json, const std::string& name) {
-        for (const Json& c : json["columns"]) {
-            if (c["name"] == name) return c["values"].get<std::vector<double>>();
-        }
-        ADD_FAILURE() << "no column " << name;
-        return {};
-    }
+    Result oblique(const std::string& words) const { return footfall("oblique " + words); }
 };
 
 const std::string ball =
@@ -54,11 +21,12 @@ const std::string ball =
 const std::string friction = "--friction azad-featherstone:stiffness=4.01e10,damping=0,coefficient=0.092 ";
 
 TEST_F(ObliqueCli, JsonIsTheTableWithEveryPhase) {
-    const Answer answer = oblique(ball + friction + "--angles 50..60:5 --json");
+    const Result answer = oblique(ball + friction + "--angles 50..60:5 --json");
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
     EXPECT_EQ(answer.err, "");
     const Json json = Json::parse(answer.out);
-    const std::vector<double> angle = column(json, "angle"), e_t = column(json, "tangential_restitution");
+    const std::vector<double> angle = column(json["columns"], "angle"),
+                              e_t = column(json["columns"], "tangential_restitution");
     ASSERT_EQ(angle.size(), 3U);
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_NEAR(angle[i], 50 + 5.0 * static_cast<double>(i), 1e-9);
@@ -70,7 +38,7 @@ TEST_F(ObliqueCli, JsonIsTheTableWithEveryPhase) {
 
 TEST_F(ObliqueCli, PlainAnglesAreDegreesAndUnitsAreTaken) {
     const auto e_t = [&](const std::string& angles) {
-        return column(Json::parse(oblique(ball + friction + "--json --angles " + angles).out),
+        return column(Json::parse(oblique(ball + friction + "--json --angles " + angles).out)["columns"],
                       "tangential_restitution");
     };
     const std::vector<double> plain = e_t("15"), in_radians = e_t("0.2617993877991494rad");
@@ -79,10 +47,10 @@ TEST_F(ObliqueCli, PlainAnglesAreDegreesAndUnitsAreTaken) {
 }
 
 TEST_F(ObliqueCli, SweepsTheSpinAtAGivenNormalSpeed) {
-    const Answer answer = oblique("--radius 2.5mm --mass 0.26g --normal-speed 2 --angles 0 --spins=-100,0,100 --json " +
+    const Result answer = oblique("--radius 2.5mm --mass 0.26g --normal-speed 2 --angles 0 --spins=-100,0,100 --json " +
                                   friction + "--normal azad-featherstone:stiffness=2.675e10,damping=0");
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
-    const std::vector<double> v = column(Json::parse(answer.out), "tangential_velocity_after");
+    const std::vector<double> v = column(Json::parse(answer.out)["columns"], "tangential_velocity_after");
     ASSERT_EQ(v.size(), 3U);
     EXPECT_NEAR(v[1], 0, 1e-12);
     EXPECT_NEAR(v[0], -v[2], 1e-10);
@@ -90,13 +58,13 @@ TEST_F(ObliqueCli, SweepsTheSpinAtAGivenNormalSpeed) {
 }
 
 TEST_F(ObliqueCli, TheAskedRestitutionIsMetAtNormalIncidence) {
-    const Answer answer = oblique(ball + friction + "--restitution 0.8 --angles 0 --json");
+    const Result answer = oblique(ball + friction + "--restitution 0.8 --angles 0 --json");
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
-    EXPECT_NEAR(column(Json::parse(answer.out), "normal_restitution").at(0), 0.8, 1e-8);
+    EXPECT_NEAR(column(Json::parse(answer.out)["columns"], "normal_restitution").at(0), 0.8, 1e-8);
 }
 
 TEST_F(ObliqueCli, WritesTheTableAndThePhasesAsCsv) {
-    const Answer answer = oblique(ball + friction + "--angles 10,50 --csv " + (folder / "t.csv").string() +
+    const Result answer = oblique(ball + friction + "--angles 10,50 --csv " + (folder / "t.csv").string() +
                                   " --history " + (folder / "h.csv").string());
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
     EXPECT_NE(read_text(folder / "t.csv").find("contact_rebound_angle"), std::string::npos);
@@ -111,7 +79,7 @@ TEST_F(ObliqueCli, FitsTheCoefficientToAMeasuredCurve) {
         data += std::to_string(angle) + "," + std::to_string(e_t) + "\n";
     }
     const std::string file = folder.write("d.csv", data).string();
-    const Answer answer = oblique(ball + friction + "--vary friction.coefficient --json --fit " + file);
+    const Result answer = oblique(ball + friction + "--vary friction.coefficient --json --fit " + file);
     ASSERT_EQ(answer.exit_code, 0) << answer.err;
     const Json json = Json::parse(answer.out);
     EXPECT_NEAR(json["estimates"][0]["value"].get<double>(), 0.12, 2e-6);
@@ -122,7 +90,7 @@ TEST_F(ObliqueCli, FitsTheCoefficientToAMeasuredCurve) {
 
 TEST_F(ObliqueCli, WrongInputExitsWithTwoAndSaysWhereItIs) {
     const auto refuse = [&](const std::string& words, const std::string& reason) {
-        const Answer answer = oblique(words);
+        const Result answer = oblique(words);
         EXPECT_EQ(answer.exit_code, 2) << words;
         EXPECT_EQ(answer.out, "");
         EXPECT_EQ(answer.err.find("footfall: "), 0U) << answer.err;
@@ -156,7 +124,7 @@ TEST_F(ObliqueCli, TheExampleOfItsHelpRuns) {
     const std::size_t begin = help.find("  footfall oblique");
     ASSERT_NE(begin, std::string::npos);
     const std::size_t words = begin + std::string("  footfall oblique").size();
-    const Answer answer = oblique(help.substr(words, help.find("\n\n", words) - words));
+    const Result answer = oblique(help.substr(words, help.find("\n\n", words) - words));
     EXPECT_EQ(answer.exit_code, 0) << answer.err;
     EXPECT_NE(answer.out.find("tangential_restitution"), std::string::npos);
 }

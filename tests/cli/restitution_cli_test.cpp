@@ -1,50 +1,20 @@
 // footfall restitution and footfall material, as programs.
 #include <chrono>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <sys/wait.h>
 
-#include "io/temporary_folder.hpp"
+#include "cli/program.hpp"
 
 namespace footfall::test {
 namespace {
 
-struct Result {
-    int exit_code;
-    std::string out, err;
-};
-
-/// The program with a shell's words.
-class RestitutionCli : public ::testing::Test {
-protected:
-    TemporaryFolder folder;
-
-    Result footfall(const std::string& words) const {
-        const std::string out = (folder / ".out").string(), err = (folder / ".err").string();
-        const int status = std::system((FOOTFALL_CLI " " + words + " >" + out + " 2>" + err).c_str());
-        return {WEXITSTATUS(status), read_text(out), read_text(err)};
-    }
-};
+using RestitutionCli = ProgramTest;
 
 const std::string three_laws =
     " --mass '154 g' --radius '1.65 cm' --normal azad-featherstone:stiffness=8.5e6,damping=3.1e3"
     " --normal hunt-crossley:stiffness=8.5e6,damping=3.1e6 --normal linear:stiffness=2.5e5,damping=60 ";
-
-bool contains(const std::string& text, std::string_view words) { return text.find(words) != std::string::npos; }
-
-/// The values of a column of a study's JSON.
-std::vector<double> values(const nlohmann::json& json, const std::string& series, const std::string& name) {
-    for (const auto& column : json["columns"]) {
-        if (column["series"] == series && column["name"] == name) return column["values"];
-    }
-    ADD_FAILURE() << series << " " << name;
-    return {};
-}
 
 TEST_F(RestitutionCli, GivesFiftySpeedsAndThreeLawsInUnderASecondAsTheClosedFormsHaveThem) {
     const auto start = std::chrono::steady_clock::now();
@@ -52,10 +22,11 @@ TEST_F(RestitutionCli, GivesFiftySpeedsAndThreeLawsInUnderASecondAsTheClosedForm
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_LT(taken.count(), 1);
-    const auto json = nlohmann::json::parse(result.out);
-    EXPECT_EQ(values(json, "", "speed").size(), 50u);
+    const auto json = Json::parse(result.out);
+    EXPECT_EQ(column(json["columns"], "speed").size(), 50u);
     for (const char* law : {"hunt-crossley", "linear"}) {
-        const auto e = values(json, law, "restitution"), theory = values(json, law, "closed_form");
+        const auto e = column(json["columns"], "restitution", law),
+                   theory = column(json["columns"], "closed_form", law);
         for (std::size_t i = 0; i < 50; ++i) EXPECT_NEAR(e[i], theory[i], 1e-9) << law << " " << i;
     }
     EXPECT_EQ(json["cases"][0]["law"], "azad-featherstone:stiffness=8500000,damping=3100");
@@ -76,7 +47,7 @@ TEST_F(RestitutionCli, TellsCurvesOfOneLawApart) {
         "restitution --mass 1 --points 2 --normal linear:stiffness=1e5,damping=1 "
         "--normal linear:stiffness=1e5,damping=2 --json");
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    const auto json = nlohmann::json::parse(result.out);
+    const auto json = Json::parse(result.out);
     EXPECT_EQ(json["cases"][1]["series"], "linear:stiffness=100000,damping=2");
 }
 
@@ -85,7 +56,7 @@ TEST_F(RestitutionCli, FindsWhereACurveIsStraight) {
         "restitution --mass '154 g' --normal azad-featherstone:stiffness=8.5e6,damping=3.1e3 --from 1e-6 --to 1e6 "
         "--points 2 --straight 0.01 --json");
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    const auto straight = nlohmann::json::parse(result.out)["cases"][0]["straight"];
+    const auto straight = Json::parse(result.out)["cases"][0]["straight"];
     EXPECT_LT(straight["slowest"], straight["speed"]);
     EXPECT_GT(straight["fastest"], straight["speed"]);
 }
@@ -94,7 +65,7 @@ TEST_F(RestitutionCli, ReproducesTheFigures) {
     for (const char* figure : {"2", "3", "4"}) {
         const Result result = footfall(std::string("restitution --json --figure ") + figure);
         EXPECT_EQ(result.exit_code, 0) << result.err;
-        EXPECT_TRUE(nlohmann::json::accept(result.out));
+        EXPECT_TRUE(Json::accept(result.out));
     }
 }
 
@@ -136,7 +107,7 @@ TEST_F(RestitutionCli, MaterialGivesTablesThatAScenarioTakesAndThatBounceAsMeasu
             material.out);
     const Result run = footfall("run --json " + file.string());
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_NEAR(nlohmann::json::parse(run.out)["impacts"][0]["restitution"], 0.6, 1e-8);
+    EXPECT_NEAR(Json::parse(run.out)["impacts"][0]["restitution"], 0.6, 1e-8);
 }
 
 TEST_F(RestitutionCli, MaterialInvertsALawAndListsItsSources) {
@@ -147,7 +118,7 @@ TEST_F(RestitutionCli, MaterialInvertsALawAndListsItsSources) {
     EXPECT_TRUE(contains(inverse.out, "damping=632.4555")) << inverse.out;
     const Result list = footfall("material --list");
     EXPECT_TRUE(contains(list.out, "Callister 2007"));
-    EXPECT_GE(nlohmann::json::parse(footfall("material --list --json").out)["materials"].size(), 11u);
+    EXPECT_GE(Json::parse(footfall("material --list --json").out)["materials"].size(), 11u);
 }
 
 }  // namespace
