@@ -17,8 +17,8 @@
 
 #include "bench/plain_loop.hpp"
 #include "bench/timing.hpp"
-#include "footfall/simulate/run.hpp"
 #include "tests/oracle/arkode_sphere.hpp"
+#include "tests/oracle/library_run.hpp"
 #include "tests/oracle/reference.hpp"
 
 namespace {
@@ -64,19 +64,8 @@ Outcome outcome_of(const oracle::TimedRun& run) {
 }
 
 Solver footfall_solver(double tolerance) {
-    const oracle::Ball<double> ball = oracle::paper_ball();
-    const State<double> start = oracle::paper_start();
-    footfall::Simulation simulation;
-    simulation.body.mass = ball.m;
-    simulation.body.inertia = footfall::solid_sphere_inertia(ball.m, ball.r);
-    simulation.body.spheres = {{.radius = ball.r}};
-    simulation.gravity = {0, 0, -ball.g};
-    simulation.initial.position = {start[oracle::cx], start[oracle::cy], start[oracle::cz]};
-    simulation.initial.velocity = {start[oracle::vx], start[oracle::vy], start[oracle::vz]};
-    simulation.contacts = {{footfall::AzadFeatherstoneNormal<>{ball.K_n, ball.D_n},
-                            footfall::AzadFeatherstoneFriction<>{{ball.K_t, ball.D_t, ball.mu, ball.C_V}}}};
-    simulation.options.end_time = end_time;
-    simulation.options.tolerance = tolerance;
+    const footfall::Simulation simulation =
+        oracle::simulation_of(oracle::paper_ball(), oracle::paper_start(), end_time, tolerance);
     return [simulation] {
         const footfall::Run run = footfall::run(simulation);
         return Outcome{position_error(run.final.body.position.data()), run.max_residual, run.cost.steps,

@@ -8,33 +8,17 @@
 
 #include <gtest/gtest.h>
 
-#include "footfall/simulate/run.hpp"
 #include "oracle/arkode_sphere.hpp"
 #include "oracle/cvode_sphere.hpp"
+#include "oracle/library_run.hpp"
 #include "oracle/reference.hpp"
 
 namespace {
 
 using oracle::Ball;
 using oracle::Reference;
+using oracle::simulation_of;
 using oracle::State;
-
-/// The same run in the library's terms.
-footfall::Simulation simulation_of(const Ball<double>& ball, const State<double>& start, double end, double tolerance) {
-    footfall::Simulation simulation;
-    simulation.body.mass = ball.m;
-    simulation.body.inertia = footfall::solid_sphere_inertia(ball.m, ball.r);
-    simulation.body.spheres = {{.radius = ball.r}};
-    simulation.gravity = {0, 0, -ball.g};
-    simulation.initial.position = {start[oracle::cx], start[oracle::cy], start[oracle::cz]};
-    simulation.initial.velocity = {start[oracle::vx], start[oracle::vy], start[oracle::vz]};
-    simulation.initial.angular_velocity = {start[oracle::wx], start[oracle::wy], start[oracle::wz]};
-    simulation.contacts = {{footfall::AzadFeatherstoneNormal<>{ball.K_n, ball.D_n},
-                            footfall::AzadFeatherstoneFriction<>{{ball.K_t, ball.D_t, ball.mu, ball.C_V}}}};
-    simulation.options.end_time = end;
-    simulation.options.tolerance = tolerance;
-    return simulation;
-}
 
 const footfall::Run& paper_run() {
     static const footfall::Run run =
