@@ -61,7 +61,9 @@ std::vector<Swing::Turn> Swing::large_turns() const {
     for (const Turn& t : late) {
         if (large.empty()) {
             large.push_back(t);
-        } else if (large.back().greatest == t.greatest) {
+            continue;
+        }
+        if (large.back().greatest == t.greatest) {
             // Another of the same kind, with nothing large in between: the farther one counts.
             if ((t.deflection > large.back().deflection) == t.greatest) large.back() = t;
         } else if (std::abs(t.deflection - large.back().deflection) > way) {
