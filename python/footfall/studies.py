@@ -2,7 +2,8 @@
 
 Quantities are in SI units, angles in radians where they are given. Laws are those of :mod:`footfall.laws` or their
 text.
-``dataset.to_dataframe()`` makes a pandas table of any dataset.
+``dataset.to_dataframe()`` makes a pandas table of any dataset. Studies go on without the GIL, and Ctrl-C
+(KeyboardInterrupt) ends them.
 """
 
 from __future__ import annotations

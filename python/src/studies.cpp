@@ -27,6 +27,7 @@
 #include "footfall/study/oblique.hpp"
 #include "footfall/study/restitution.hpp"
 #include "footfall/study/table.hpp"
+#include "progress.hpp"
 
 namespace footfall::python {
 namespace {
@@ -51,6 +52,7 @@ double or_nan(const std::optional<double>& value) noexcept {
 using NamedLaws = std::vector<std::pair<std::string, NormalLaw>>;
 
 nb::tuple restitution_of(RestitutionStudy study) {
+    study.options.go_on = unless_interrupted();
     RestitutionResult result;
     {
         const nb::gil_scoped_release free;
@@ -95,14 +97,16 @@ void bind_oblique(nb::module_& module) {
                                        .inertia = inertia,
                                        .contact = {.normal = normal, .friction = friction},
                                        .gravity = gravity,
-                                       .tolerance = tolerance};
+                                       .tolerance = tolerance,
+                                       .go_on = unless_interrupted()};
             std::vector<ObliqueImpact> impacts;
-            for (std::size_t i = 0; i < angles.size(); ++i) {
-                if (PyErr_CheckSignals() != 0) throw nb::python_error();
+            {
                 const nb::gil_scoped_release free;
-                impacts.push_back(oblique_impact(sphere, is_normal_speed
-                                                             ? approach_at_normal_speed(speed, angles[i], spins[i])
-                                                             : approach_at_speed(speed, angles[i], spins[i])));
+                for (std::size_t i = 0; i < angles.size(); ++i) {
+                    impacts.push_back(oblique_impact(sphere, is_normal_speed
+                                                                 ? approach_at_normal_speed(speed, angles[i], spins[i])
+                                                                 : approach_at_speed(speed, angles[i], spins[i])));
+                }
             }
             return nb::make_tuple(as_columns(oblique_table(impacts, friction_coefficient(friction), poisson_ratio)),
                                   as_columns(oblique_history(impacts)));
@@ -128,10 +132,10 @@ void bind_drive(nb::module_& module) {
            std::optional<double> tolerance) {
             Rig rig = file.rig;
             if (tolerance) rig.tolerance = *tolerance;
+            rig.go_on = unless_interrupted();
             std::vector<NamedDrive> runs;
             nb::list summaries;
             for (const auto& [series, pair] : laws) {
-                if (PyErr_CheckSignals() != 0) throw nb::python_error();
                 {
                     const nb::gil_scoped_release free;
                     try {
@@ -243,6 +247,7 @@ void bind_fit(nb::module_& module) {
             study.options.starts = starts;
             study.options.confidence = confidence;
             study.options.noise_is_known = noise_is_known;
+            study.options.go_on = unless_interrupted();
             FitStudyResult result;
             {
                 const nb::gil_scoped_release free;

@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import footfall
@@ -91,6 +92,49 @@ def test_ctrl_c_ends_a_run() -> None:
     assert time.monotonic() - started < 10
     # Nothing is left behind.
     assert footfall.run(SCENARIOS["single-impact"]).impacts
+
+
+PAPER = "azad-featherstone:stiffness=8.5e6,damping=3.1e3"
+FRICTION = "azad-featherstone:stiffness=12.75e6,damping=3.1e3,coefficient=0.2,viscous=0.1"
+
+
+def long_fit() -> None:
+    speeds = np.linspace(0.1, 5, 2000)
+    data = pd.DataFrame({"speed": speeds, "restitution": 0.9 - 0.1 * speeds})
+    footfall.studies.fit(data, "azad-featherstone:stiffness=8.5e6,damping=?", mass=0.154, starts=10_000)
+
+
+LONG_STUDIES = {
+    "restitution": lambda: footfall.studies.restitution(PAPER, 0.154, np.geomspace(0.01, 10, 1_000_000)),
+    "oblique": lambda: footfall.studies.oblique(
+        PAPER, FRICTION, 0.154, 0.0165, angles=np.linspace(0, 1.5, 1_000_000), speed=1.0
+    ),
+    "drive": lambda: footfall.studies.drive(
+        {
+            "rig": {
+                "end": 1e4,
+                "sample": 100.0,
+                "max_evaluations": 1e9,
+                "load": [{"shape": "constant", "value": "10 N"}],
+                "displacement": [{"shape": "sine", "amplitude": "1 mm", "frequency": "100 Hz"}],
+            },
+            "contact": {
+                "normal": {"law": "hertz", "stiffness": 8.5e6},
+                "friction": {"law": "dahl", "stiffness": 1e5, "coefficient": 0.2},
+            },
+        }
+    ),
+    "fit": long_fit,
+}
+
+
+@pytest.mark.parametrize("study", LONG_STUDIES)
+def test_ctrl_c_ends_a_study(study: str) -> None:
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    started = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        LONG_STUDIES[study]()
+    assert 0.4 < time.monotonic() - started < 10
 
 
 def test_ctrl_c_ends_a_step_of_very_many_contacts(paper_law: footfall.ContactLaw) -> None:

@@ -42,7 +42,10 @@ public:
         const std::vector<Interval>& intervals = timeline_.intervals();
         for (std::size_t k = 0; k < intervals.size(); ++k) {
             begin_interval(intervals[k], k == 0);
-            while (y_[L::theta] < 1) advance();
+            while (y_[L::theta] < 1) {
+                ask(rig_.go_on);
+                advance();
+            }
             y_[L::theta] = 1;
         }
         sample_end();

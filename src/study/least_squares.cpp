@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -62,7 +63,7 @@ Rho rho(Loss loss, double r) {
 /// A parameter's coordinate is its logarithm, or itself.
 class Model {
 public:
-    explicit Model(const LeastSquaresProblem& problem) : problem_(problem) {
+    Model(const LeastSquaresProblem& problem, const GoOn& go_on) : problem_(problem), go_on_(go_on) {
         for (std::size_t i = 0; i < problem.parameters.size(); ++i) {
             if (!problem.parameters[i].fixed) free_.push_back(i);
         }
@@ -100,6 +101,7 @@ public:
 
     /// False where the model has no value.
     bool residuals(const Vector& x, Vector& r) const {
+        ask(go_on_);
         r.resize(residual_count());
         ++evaluations_;
         problem_.residuals(view(x), view(r));
@@ -111,6 +113,7 @@ public:
         r.resize(residual_count());
         J.setZero(residual_count(), parameter_count());
         if (problem_.jacobian) {
+            ask(go_on_);
             ++evaluations_;
             problem_.jacobian(view(x), view(r), {J.data(), at(J.size())});
             return r.allFinite() && J.allFinite();
@@ -146,6 +149,7 @@ private:
     }
 
     const LeastSquaresProblem& problem_;
+    const GoOn& go_on_;
     std::vector<std::size_t> free_;
     mutable int evaluations_ = 0;
 };
@@ -158,7 +162,22 @@ public:
         mutable_parameter_block_sizes()->push_back(static_cast<int>(model.free().size()));
     }
 
+    /// What the model throws does not go through Ceres, which is not made for it, but waits until Ceres has given up.
     bool Evaluate(const double* const* blocks, double* out, double** jacobians) const override {
+        if (thrown_) return false;
+        try {
+            return evaluate(blocks, out, jacobians);
+        } catch (...) {
+            thrown_ = std::current_exception();
+            return false;
+        }
+    }
+    void rethrow() const {
+        if (thrown_) std::rethrow_exception(thrown_);
+    }
+
+private:
+    bool evaluate(const double* const* blocks, double* out, double** jacobians) const {
         const Vector x = model_.arguments(blocks[0]);
         const bool wants_jacobian = jacobians != nullptr && jacobians[0] != nullptr;
         Vector r;
@@ -181,10 +200,10 @@ public:
         return true;
     }
 
-private:
     const Model& model_;
     Loss loss_;
     double noise_;
+    mutable std::exception_ptr thrown_;
 };
 
 // The search ----------------------------------------------------------------------------------------------------------
@@ -210,7 +229,8 @@ std::vector<int> at_bounds(const Model& model, const Vector& coordinates) {
 std::optional<Minimum> minimise_holding(const Model& model, Vector start, const std::vector<int>& held, Loss loss,
                                         double noise, int max_iterations) {
     ceres::Problem problem;
-    problem.AddResidualBlock(new Cost(model, loss, noise), nullptr, start.data());
+    auto* cost = new Cost(model, loss, noise);  // the problem's own
+    problem.AddResidualBlock(cost, nullptr, start.data());
     if (!held.empty()) {
         problem.SetManifold(start.data(), new ceres::SubsetManifold(static_cast<int>(start.size()), held));
     }
@@ -233,6 +253,7 @@ std::optional<Minimum> minimise_holding(const Model& model, Vector start, const 
     for (const double radius : {1.0, 1e12}) {
         options.initial_trust_region_radius = radius;
         ceres::Solve(options, &problem, &summary);
+        cost->rethrow();
         if (!summary.IsSolutionUsable()) return std::nullopt;
         iterations += static_cast<int>(summary.iterations.size()) - 1;
     }
@@ -659,7 +680,7 @@ private:
 
 FitResult fit_least_squares(const LeastSquaresProblem& problem, const FitOptions& options) {
     check(problem, options);
-    const Model model(problem);
+    const Model model(problem, options.go_on);
 
     const auto require = [&](const Search& found) {
         if (found.tried == 0) {

@@ -53,6 +53,7 @@ Simulation simulation_of(const ObliqueSphere& sphere, const Approach& approach) 
     s.initial.angular_velocity = {0, approach.spin, 0};
     s.contacts = {sphere.contact};
     s.options.tolerance = sphere.tolerance;
+    s.options.progress = progress_of(sphere.go_on);
     return s;
 }
 

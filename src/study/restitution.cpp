@@ -85,6 +85,7 @@ NormalImpact normal_impact(const NormalLaw& law, double mass, double speed, cons
     simulation.initial.velocity = {0, 0, -approach};
     simulation.contacts = {{law, NoFriction<>{}}};
     simulation.options.tolerance = options.tolerance;
+    simulation.options.progress = progress_of(options.go_on);
 
     NormalImpact result;
     result.speed = speed;

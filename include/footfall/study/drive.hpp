@@ -76,7 +76,7 @@ struct Drive {
 };
 
 /// Drives one contact along the rig's paths. Under a normal law whose damping depends on the speed of impact, that is
-/// zdot where z rises through 0. Throws InvalidInput, TooExpensive.
+/// zdot where z rises through 0. Throws InvalidInput, TooExpensive, Interrupted.
 [[nodiscard]] Drive drive(const Rig& rig, const ContactParameters& laws);
 
 /// A run with the name that its columns get.

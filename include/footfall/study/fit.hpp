@@ -80,7 +80,7 @@ struct FitStudyResult {
     [[nodiscard]] std::size_t best() const;
 };
 
-/// Fits each law to the data. Throws InvalidInput where something needed is missing or out of its range.
+/// Fits each law to the data. Throws InvalidInput where something needed is missing or out of its range; Interrupted.
 [[nodiscard]] FitStudyResult fit(const FitStudy& study);
 
 /// x, y, and for each law its model and residual.

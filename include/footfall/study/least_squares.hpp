@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "footfall/math/error.hpp"
+#include "footfall/study/go_on.hpp"
 
 namespace footfall {
 
@@ -61,6 +62,7 @@ struct FitOptions {
     /// the noise is estimated from the residuals.
     bool noise_is_known = false;
     int max_iterations = 200;  ///< of each start
+    GoOn go_on = nullptr;      ///< asked at each evaluation of the model
 };
 
 struct FitInterval {
@@ -113,7 +115,8 @@ struct FitResult {
 };
 
 /// Fits. Throws InvalidInput where the problem makes no sense (no free parameter, fewer residuals than free
-/// parameters, a start outside its bounds), or where the model has a value at none of the starts.
+/// parameters, a start outside its bounds), or where the model has a value at none of the starts; Interrupted; and what
+/// the model throws.
 [[nodiscard]] FitResult fit_least_squares(const LeastSquaresProblem& problem, const FitOptions& options = {});
 
 }  // namespace footfall

@@ -17,6 +17,7 @@
 #include "footfall/law/contact_law.hpp"
 #include "footfall/law/registry.hpp"
 #include "footfall/math/error.hpp"
+#include "footfall/study/go_on.hpp"
 #include "footfall/study/least_squares.hpp"
 #include "footfall/study/table.hpp"
 
@@ -30,6 +31,7 @@ struct ObliqueSphere {
     ContactParameters contact;
     double gravity = 0;        ///< along -z [m/s^2], >= 0
     double tolerance = 1e-10;  ///< of the run, from 1e-14 to 1e-3
+    GoOn go_on = nullptr;
 };
 
 /// How a sphere comes in.
@@ -87,7 +89,7 @@ struct ObliqueImpact {
     [[nodiscard]] double time_in(Phase phase) const noexcept;
 };
 
-/// Computes one impact. Throws InvalidInput where the sphere, its laws or the approach cannot be used.
+/// Computes one impact. Throws InvalidInput where the sphere, its laws or the approach cannot be used; Interrupted.
 [[nodiscard]] ObliqueImpact oblique_impact(const ObliqueSphere& sphere, const Approach& approach);
 
 /// mu of sliding, the parameter `coefficient` or `kinetic_coefficient` of a friction law; nothing where the law has

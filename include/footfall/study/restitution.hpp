@@ -12,6 +12,7 @@
 
 #include "footfall/law/registry.hpp"
 #include "footfall/math/error.hpp"
+#include "footfall/study/go_on.hpp"
 #include "footfall/study/table.hpp"
 
 namespace footfall {
@@ -19,6 +20,7 @@ namespace footfall {
 struct ImpactOptions {
     double gravity = 0;        ///< towards the ground [m/s^2], >= 0
     double tolerance = 1e-12;  ///< of the run, from 1e-14 to 1e-3; the error of e is of this order
+    GoOn go_on = nullptr;
 };
 
 /// One impact. Times count from touchdown.
@@ -81,7 +83,7 @@ struct RestitutionResult {
     std::vector<std::optional<double>> slowest_bounces;  ///< [case]; with gravity only, else empty
 };
 
-/// Every case at every speed. Throws InvalidInput.
+/// Every case at every speed. Throws InvalidInput, Interrupted.
 [[nodiscard]] RestitutionResult restitution(const RestitutionStudy& study);
 
 /// speed; for each case restitution, what theory says of it without gravity (viscoelastic_theory.hpp), peak force, peak

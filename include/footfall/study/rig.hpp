@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "footfall/math/vector.hpp"
+#include "footfall/study/go_on.hpp"
 
 namespace footfall {
 
@@ -120,6 +121,7 @@ struct Rig {
     Drag drag = Drag::displacement;
     PlanePath dragging;  ///< [m] or [m/s], as `drag` says; unused with a mass
     HeldMass mass;       ///< used where `drag` says so
+    GoOn go_on = nullptr;
 
     [[nodiscard]] double period() const noexcept { return sample_period > 0 ? sample_period : end_time / 1000; }
 };
