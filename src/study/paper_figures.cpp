@@ -28,7 +28,7 @@ RestitutionStudy figure_2() {
             .cases = {{"paper", paper, mass, radius},
                       {"classical", classical, mass, radius},
                       {"linear", linear_beside_the_paper(), mass, radius}},
-            .speeds = linear_speeds(0.1, 10, 50),
+            .speeds = logarithmic_speeds(1e-2, 10, 50),  // e falls fastest at the slow end
             .options = {}};
 }
 
