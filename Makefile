@@ -32,13 +32,25 @@ $(BUILD)/CMakeCache.txt:
 build: $(BUILD)/CMakeCache.txt  ## Build the library and build/footfall
 	@cmake --build $(BUILD) -j $(JOBS) --target footfall_cli
 
-demo: deps build  ## Run the paper's rolling sphere
+.PHONY: demo-deps
+demo-deps:
+	@scripts/install-deps.sh --demo
+
+# The figures are drawn from the run's file by the Python package as it lies here: nothing more is compiled for them.
+DRAW = PYTHONPATH=python $(BUILD)/demo-venv/bin/python -B -m footfall.figures
+demo: demo-deps build  ## Run the paper's rolling sphere and draw it
 	@mkdir -p $(DEMO)
 	$(BUILD)/footfall run scenarios/rolling-sphere.toml -o $(DEMO)/rolling-sphere.nc --csv $(DEMO)/csv
 	@echo
 	@echo "The whole run, every sample labelled with its unit:  $(DEMO)/rolling-sphere.nc  (xarray, ncdump -h)"
 	@echo "The same as tables:                                  $(DEMO)/csv/samples.csv, events.csv, impacts.csv"
 	@echo "The scenario, to copy and change:                    scenarios/rolling-sphere.toml"
+	@echo
+	@scripts/venv.sh $(BUILD)/demo-venv python/figures-requirements.txt
+	@$(BUILD)/footfall run scenarios/rolling-sphere-first-bounce.toml -o $(DEMO)/first-bounce.nc --quiet
+	@echo "Figures of the run, and of its first bounce:"
+	@$(DRAW) $(DEMO)/rolling-sphere.nc $(DEMO)/figures
+	@$(DRAW) $(DEMO)/first-bounce.nc $(DEMO)/figures --impact
 
 # Tests and benchmarks need more packages than the library, so they are configured only when asked for.
 .PHONY: build-all
@@ -71,43 +83,59 @@ layers:  ## Check that includes go one way
 lint: $(BUILD)/CMakeCache.txt  ## Run clang-tidy on the library and the command line
 	@CLANG_TIDY=$(CLANG_TIDY) scripts/lint.sh $(BUILD) $(JOBS)
 
-docs-check: build  ## Run every example in README.md and docs/
+docs-check: build $(BUILD)/python-venv/made  ## Run every example in README.md and docs/
 	@scripts/check-docs.py --build $(BUILD)
-
-.PHONY: docs
-docs:  ## Build the documentation as a site; warnings are errors
-	@scripts/venv.sh $(BUILD)/docs-venv docs/requirements.txt
-	$(BUILD)/docs-venv/bin/python -m sphinx --quiet --nitpicky --fail-on-warning --keep-going \
-	    -d $(BUILD)/docs/doctrees docs $(BUILD)/docs/html
-	@echo "The site:  $(BUILD)/docs/html/index.html"
 
 .PHONY: friction-page
 friction-page: build  ## Draw the figures and measure the tables of docs/friction.md
 	@scripts/venv.sh $(BUILD)/friction-venv docs/friction/requirements.txt
 	$(BUILD)/friction-venv/bin/python docs/friction/make.py --footfall $(BUILD)/footfall
 
-# What `pip install .` builds, and its tests as a user's environment has them.
+# What `pip install .` builds, made again where something that goes into it has changed.
 WHEELS := $(BUILD)/wheels
+WHEEL := $(WHEELS)/made
+WHEEL_SOURCES = CMakeLists.txt LICENSE pyproject.toml $(addprefix python/,CMakeLists.txt README.md) $(filter-out \
+    %.pyc %/__pycache__,$(shell find apps cmake include python/footfall python/src scenarios src))
 PYTHON ?= python3
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: python python-test
-python:  ## Build the Python package as a wheel
+$(WHEEL): $(WHEEL_SOURCES)
 	@scripts/install-deps.sh --python
 	@rm -rf $(WHEELS) && mkdir -p $(WHEELS)
 	$(PYTHON) -m pip wheel --quiet --no-deps --wheel-dir $(WHEELS) -C build-dir=$(BUILD)/python .
+	@touch $@
+
+.PHONY: python python-test
+python: $(WHEEL)  ## Build the Python package as a wheel
 	@ls $(WHEELS)/*.whl
 
-python-test: python  ## Install the wheel in a clean environment and run its tests there
-	@rm -rf $(BUILD)/python-venv && $(PYTHON) -m venv $(BUILD)/python-venv
-	$(BUILD)/python-venv/bin/pip install --quiet "$$(ls $(WHEELS)/footfall-*.whl)[test]"
-	@scripts/test-wheel.sh $(BUILD)/python-venv/bin
+# The wheel in a clean environment, as a user has it.
+PYTHON_VENV := $(BUILD)/python-venv
+$(PYTHON_VENV)/made: $(WHEEL)
+	@rm -rf $(PYTHON_VENV) && $(PYTHON) -m venv $(PYTHON_VENV)
+	$(PYTHON_VENV)/bin/pip install --quiet "$$(ls $(WHEELS)/footfall-*.whl)[test]"
+	@touch $@
+
+python-test: $(PYTHON_VENV)/made  ## Install the wheel in a clean environment and run its tests there
+	@scripts/test-wheel.sh $(PYTHON_VENV)/bin
+
+# The notebooks run with the package, which a new wheel of the same version replaces.
+DOCS_VENV := $(BUILD)/docs-venv
+$(DOCS_VENV)/made: docs/requirements.txt $(WHEEL)
+	@scripts/venv.sh $(DOCS_VENV) docs/requirements.txt
+	$(DOCS_VENV)/bin/pip install --quiet "$$(ls $(WHEELS)/footfall-*.whl)[plot]"
+	$(DOCS_VENV)/bin/pip install --quiet --no-deps --force-reinstall $(WHEELS)/footfall-*.whl
+	@touch $@
+
+.PHONY: docs
+docs: $(DOCS_VENV)/made  ## Build the documentation as a site and run its notebooks; warnings are errors
+	$(DOCS_VENV)/bin/python -m sphinx --quiet --nitpicky --fail-on-warning --keep-going \
+	    -d $(BUILD)/docs/doctrees docs $(BUILD)/docs/html
+	@echo "The site:  $(BUILD)/docs/html/index.html"
 
 .PHONY: figures
-figures: python  ## Draw the paper's figures beside what its text says: build/figures/index.html
-	@rm -rf $(BUILD)/figures-venv && $(PYTHON) -m venv $(BUILD)/figures-venv
-	$(BUILD)/figures-venv/bin/pip install --quiet "$$(ls $(WHEELS)/footfall-*.whl)[plot]"
-	$(BUILD)/figures-venv/bin/python -m footfall.paper $(BUILD)/figures
+figures: $(PYTHON_VENV)/made  ## Draw the paper's figures beside what its text says: build/figures/index.html
+	$(PYTHON_VENV)/bin/python -m footfall.paper $(BUILD)/figures
 
 .PHONY: validation
 validation: build  ## Compare with published curves: docs/validation.md and its figures

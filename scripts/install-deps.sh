@@ -2,6 +2,7 @@
 # Installs the Debian or Ubuntu packages that footfall is built from, where they are missing.
 #
 #   install-deps.sh           the library and the command line
+#   install-deps.sh --demo    and what `make demo` makes its virtual environment with
 #   install-deps.sh --python  and the Python package
 #   install-deps.sh --test    and the tests and benchmarks
 #   install-deps.sh --dev     and what .ci/run checks with
@@ -12,16 +13,18 @@ set -eu
 packages="g++ cmake ninja-build pkg-config
     libeigen3-dev libboost-dev libceres-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libnetcdf-dev libcli11-dev"
 test_packages="libgtest-dev librapidcheck-dev libsundials-dev"
+demo_packages="python3-venv"
 python_packages="python3-dev python3-pip python3-venv"
 dev_packages="ccache clang-format-16 clang-tidy-16 git python3"
 
 case "${1-}" in
     "") ;;
+    --demo) packages="$packages $demo_packages" ;;
     --python) packages="$packages $python_packages" ;;
     --test) packages="$packages $test_packages" ;;
     --dev) packages="$packages $python_packages $test_packages $dev_packages" ;;
     *)
-        echo "install-deps.sh: unknown argument '$1'; allowed: --python, --test, --dev, or none" >&2
+        echo "install-deps.sh: unknown argument '$1'; allowed: --demo, --python, --test, --dev, or none" >&2
         exit 2
         ;;
 esac

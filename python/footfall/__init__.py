@@ -8,12 +8,18 @@
 'N'
 """
 
-from footfall import laws, studies
-from footfall._core import __version__
-from footfall.contact import FLIGHT, PHASES, RECOVERING, SLIP, STICK, ContactLaw, Response, Step
-from footfall.errors import Interrupted, InvalidInput, Problem, ScenarioError, TooExpensive
-from footfall.results import Cost, Energy, Event, Final, Impact, Run, State, open, run
-from footfall.scenario import Scenario, shipped_scenarios, to_toml
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from footfall import laws, studies
+    from footfall._core import __version__
+    from footfall.contact import FLIGHT, PHASES, RECOVERING, SLIP, STICK, ContactLaw, Response, Step
+    from footfall.errors import Interrupted, InvalidInput, Problem, ScenarioError, TooExpensive
+    from footfall.results import Cost, Energy, Event, Final, Impact, Run, State, open, run
+    from footfall.scenario import Scenario, shipped_scenarios, to_toml
 
 __all__ = [
     "FLIGHT",
@@ -45,3 +51,21 @@ __all__ = [
     "studies",
     "to_toml",
 ]
+
+# Loaded when first asked for, the extension last: to read a run and draw it takes no compiled code.
+_MODULES = ("errors", "results", "scenario", "contact", "_core")
+
+
+def __getattr__(name: str) -> Any:
+    if name in ("laws", "studies"):
+        return importlib.import_module(f"footfall.{name}")
+    if name in __all__:
+        for module in _MODULES:
+            found = vars(importlib.import_module(f"footfall.{module}"))
+            if name in found:
+                return globals().setdefault(name, found[name])
+    raise AttributeError(f"module 'footfall' has no attribute '{name}'")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -1,7 +1,7 @@
 """Figures of runs and studies. Each function draws on Axes of Matplotlib that it is given, labels them with units, and
 returns them.
 
-Matplotlib is needed: ``pip install 'footfall[plot]'``.
+Matplotlib is needed: ``pip install matplotlib``.
 
 >>> import footfall
 >>> import matplotlib.pyplot as plt
@@ -34,7 +34,7 @@ try:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Circle, Patch
 except ImportError as error:
-    raise ImportError("footfall.plot needs Matplotlib: pip install 'footfall[plot]'") from error
+    raise ImportError("footfall.plot needs Matplotlib: pip install matplotlib") from error
 
 Floats = npt.NDArray[np.float64]
 Window = tuple[float, float]

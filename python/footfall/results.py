@@ -9,15 +9,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
-from footfall import _core
 from footfall.errors import InvalidInput
-from footfall.scenario import Scenario, as_scenario
+
+if TYPE_CHECKING:
+    from footfall.scenario import Scenario
 
 Floats = npt.NDArray[np.float64]
 
@@ -180,6 +181,8 @@ class Run:
     @cached_property
     def scenario(self) -> Scenario:
         """The scenario as it was read. ``dataset.attrs["tolerance"]`` is the tolerance that was used."""
+        from footfall.scenario import Scenario
+
         return Scenario.parse(str(self._dataset.attrs["scenario"]))
 
     @cached_property
@@ -298,6 +301,9 @@ def run(
     >>> print(f"{run.impacts[0].restitution:.3f}")
     0.620
     """
+    from footfall import _core  # here, so that what reads and draws runs does without the extension
+    from footfall.scenario import as_scenario
+
     if tolerance is not None:
         tolerance = float(tolerance)
     (attributes, variables), wall_seconds = _core.run(as_scenario(scenario)._core, tolerance, progress)
