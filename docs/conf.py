@@ -14,14 +14,21 @@ author = "the footfall authors"
 copyright = "2026, the footfall authors"
 release = version = re.search(r"project\(footfall\s+VERSION\s+([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "sphinx.ext.napoleon", "sphinx_copybutton"]
-source_suffix = {".md": "markdown"}
+extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.mathjax", "sphinx.ext.napoleon", "sphinx_copybutton"]
+source_suffix = {".md": "myst-nb"}
 exclude_patterns = ["figures", "friction", "validation", "**/requirements.txt"]
 nitpicky = True
 
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 4  # headings have the anchors that code hosts give them
 myst_dmath_allow_labels = False  # (33) after a formula is the paper's number, not a label of ours
+
+# The notebooks of docs/notebooks run each time, with the package that is installed beside Sphinx; a cell that fails fails
+# the build.
+nb_execution_mode = "force"
+nb_execution_timeout = 300
+nb_execution_raise_on_error = True
+nb_merge_streams = True
 
 # The reference of the Python package comes from its docstrings. Nothing is built for it: what is compiled, and what is
 # imported from elsewhere, is stood in for.

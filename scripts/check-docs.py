@@ -4,7 +4,8 @@
 The word after the language of a fenced block says what is done with it; a block without one is left alone.
 
     ```sh run           run by bash, as from the repository's root but in a scratch folder
-    ```text output      what the `sh run` block before it prints; `...` stands for anything
+    ```text output      what the block before it that is run prints; `...` stands for anything
+    ```python run       run by the Python of --python, which has the package, in the same scratch folder
     ```cpp run          a whole program, compiled against the installed package and run
     ```cpp FILE         the text of FILE, a path from the root, without its header comment
     ```toml scenario    a scenario that `footfall run` accepts
@@ -84,8 +85,9 @@ def without_header(text):
 
 
 class Runner:
-    def __init__(self, build, scratch):
+    def __init__(self, build, python, scratch):
         self.build = build
+        self.python = python
         self.scratch = scratch
         self.environment = dict(os.environ, PATH=f"{build}:{os.environ['PATH']}")
         self.prefix = None
@@ -102,9 +104,14 @@ class Runner:
             return False
         if language == "sh" and mark == "run":
             self.printed = shell(text, self.scratch, self.environment)
+        elif language == "python" and mark == "run":
+            if not self.python.is_file():
+                raise Wrong(f"there is no {self.python} to run it; make python-test makes it")
+            (self.scratch / "example.py").write_text(text)
+            self.printed = shell(f"'{self.python}' example.py", self.scratch, self.environment)
         elif mark == "output":
             if self.printed is None:
-                raise Wrong("there is no `sh run` block before it")
+                raise Wrong("there is nothing that is run before it")
             if not same_output(text, self.printed):
                 raise Wrong(f"the command before it prints:\n{self.printed}")
         elif language == "cpp" and mark == "run":
@@ -142,14 +149,19 @@ class Runner:
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default="build", type=pathlib.Path, help="folder that footfall is built in")
+    parser.add_argument(
+        "--python", type=pathlib.Path, help="Python with the package; python-venv/bin/python in the build folder"
+    )
     parser.add_argument("files", nargs="*", type=pathlib.Path, help="documents; README.md and docs/*.md where none is given")
     arguments = parser.parse_args()
+    build = arguments.build.resolve()
+    python = arguments.python.absolute() if arguments.python else build / "python-venv/bin/python"
     files = arguments.files or [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
     checked = wrong = 0
     for file in files:
         with tempfile.TemporaryDirectory() as scratch:
-            runner = Runner(arguments.build.resolve(), pathlib.Path(scratch))
+            runner = Runner(build, python, pathlib.Path(scratch))
             for line, language, mark, text in blocks(file):
                 try:
                     checked += runner.check(language, mark, text)
