@@ -233,6 +233,8 @@ def _restitution(data: xr.Dataset, labels: dict[str, str], logarithmic: bool) ->
     figure, axes = plt.subplots(figsize=(5.6, 3.6), layout="constrained")
     named = data.assign_coords(series=[labels.get(str(name), str(name)) for name in data["series"].values])
     plot.restitution(axes, named, logarithmic=logarithmic)
+    if not logarithmic:
+        axes.set_xlim(left=0)
     axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
     return figure
 

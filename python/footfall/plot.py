@@ -200,7 +200,9 @@ def height(axes: Axes, run: Run, *, window: Window | None = None) -> Axes:
     if prefix == "m" and np.max(np.abs(gaps)) >= 0.02:
         factor, prefix = 100.0, "c"
     axes.axhline(0, color=GREY, linewidth=0.8)
-    axes.plot(_time_label(axes, data["time"].values, 0.0), gaps * factor, color=BLUE)
+    times = _time_label(axes, data["time"].values, 0.0)
+    axes.plot(times, gaps * factor, color=BLUE)
+    axes.set_xlim(times[0], times[-1])
     axes.set_ylabel(f"height of the lowest point [{prefix}m]")
     return axes
 

@@ -124,6 +124,7 @@ double ObliqueImpact::time_in(Phase phase) const noexcept {
 }
 
 ObliqueImpact oblique_impact(const ObliqueSphere& sphere, const Approach& approach) {
+    ask(sphere.go_on);  // a run as short as most impacts does not
     check(sphere, approach);
     Simulation simulation = simulation_of(sphere, approach);
     const Run result = run_impact(simulation, approach.normal_speed, sphere.gravity);

@@ -63,6 +63,7 @@ bool stays(const Run& run, const Simulation& simulation) {
 }  // namespace
 
 NormalImpact normal_impact(const NormalLaw& law, double mass, double speed, const ImpactOptions& options) {
+    ask(options.go_on);  // a run as short as most impacts does not
     require_positive("mass", mass, "kg");
     require_positive("speed", speed, "m/s");
     require(std::isfinite(options.gravity) && options.gravity >= 0, "gravity", options.gravity, "m/s^2",

@@ -47,8 +47,8 @@ TEST(GoOn, EndsRestitution) {
     expect_to_be_asked([](const GoOn& go_on) {
         (void)restitution({.title = "",
                            .cases = {{"ball", normal_law, mass, 0.0165}},
-                           .speeds = {0.1, 1, 10},
-                           .options = {.gravity = 9.81, .go_on = go_on}});
+                           .speeds = {0.1, 0.3, 1, 3, 10},
+                           .options = {.go_on = go_on}});
     });
 }
 
