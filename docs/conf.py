@@ -27,7 +27,7 @@ myst_dmath_allow_labels = False  # (33) after a formula is the paper's number, n
 # the build.
 nb_execution_mode = "force"
 nb_execution_timeout = 300
-nb_execution_raise_on_error = True
+nb_execution_show_tb = True
 nb_merge_streams = True
 
 # The reference of the Python package comes from its docstrings. Nothing is built for it: what is compiled, and what is

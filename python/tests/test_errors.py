@@ -116,7 +116,7 @@ LONG_STUDIES = {
                 "sample": 100.0,
                 "max_evaluations": 1e9,
                 "load": [{"shape": "constant", "value": "10 N"}],
-                "displacement": [{"shape": "sine", "amplitude": "1 mm", "frequency": "100 Hz"}],
+                "displacement": [{"shape": "sine", "amplitude": "1 mm", "frequency": "10 Hz"}],
             },
             "contact": {
                 "normal": {"law": "hertz", "stiffness": 8.5e6},
@@ -130,10 +130,14 @@ LONG_STUDIES = {
 
 @pytest.mark.parametrize("study", LONG_STUDIES)
 def test_ctrl_c_ends_a_study(study: str) -> None:
-    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    ctrl_c = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
     started = time.monotonic()
-    with pytest.raises(KeyboardInterrupt):
-        LONG_STUDIES[study]()
+    ctrl_c.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            LONG_STUDIES[study]()
+    finally:
+        ctrl_c.cancel()
     assert 0.4 < time.monotonic() - started < 10
 
 
