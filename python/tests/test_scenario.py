@@ -59,3 +59,12 @@ def test_a_scenario_can_be_pickled() -> None:
     scenario = footfall.Scenario.load(SCENARIOS["slope-stick"])
     again = pickle.loads(pickle.dumps(scenario))
     assert again.text == scenario.text and again.name == scenario.name
+
+
+def test_the_first_bounce_is_that_of_the_rolling_sphere() -> None:
+    whole, bounce = (
+        footfall.Scenario.load(SCENARIOS[name]).to_dict() for name in ("rolling-sphere", "rolling-sphere-first-bounce")
+    )
+    for tables in (whole, bounce):
+        del tables["title"], tables["time"]
+    assert bounce == whole
