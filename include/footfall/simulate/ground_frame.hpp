@@ -16,11 +16,12 @@ public:
         // Along the plane: the world axis nearest to it, x where there is a choice.
         const bool x_is_steep = std::abs(normal.x()) > 0.9;
         const Eigen::Vector3d axis = x_is_steep ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
-        const Vector3<S> n = normal.cast<S>(), along = axis.cast<S>();
-        const Vector3<S> t1 = (along - n * n.dot(along)).normalized();
+        to_ground_.row(2) = normal.cast<S>();
+        const Vector3<S> n = to_ground_.row(2);
+        Vector3<S> t1 = axis.cast<S>();
+        t1 = (t1 - n * n.dot(t1)).normalized();
         to_ground_.row(0) = t1;
         to_ground_.row(1) = n.cross(t1);
-        to_ground_.row(2) = n;
         turn_ = Quaternion<S>(to_ground_);
     }
 
