@@ -12,7 +12,8 @@ set -eu
 
 packages="g++ cmake ninja-build pkg-config
     libeigen3-dev libboost-dev libceres-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libnetcdf-dev libcli11-dev"
-test_packages="libgtest-dev librapidcheck-dev libsundials-dev"
+# Debian 13's SUNDIALS includes MPI's header without depending on it.
+test_packages="libgtest-dev librapidcheck-dev libsundials-dev mpi-default-dev"
 demo_packages="python3-venv"
 python_packages="python3-dev python3-pip python3-venv"
 dev_packages="ccache clang-format-16 clang-tidy-16 git python3"

@@ -50,7 +50,11 @@ public:
 
 protected:
     SundialsSphere(const Ball<double>& ball, double tolerance) : ball_(ball) {
+#ifdef SUN_COMM_NULL  // SUNDIALS 7
+        require(SUNContext_Create(SUN_COMM_NULL, &context_), "SUNContext_Create");
+#else
         require(SUNContext_Create(nullptr, &context_), "SUNContext_Create");
+#endif
         y_ = N_VNew_Serial(dimension, context_);
         absolute_ = N_VNew_Serial(dimension, context_);
         std::fill_n(N_VGetArrayPointer(y_), dimension, 0.0);
@@ -63,14 +67,14 @@ protected:
     /// Adds the cost of the last `evolve`.
     virtual void count(TimedRun& run) const = 0;
 
-    static int rhs(realtype, N_Vector y, N_Vector dy, void* self) {
+    static int rhs(sunrealtype, N_Vector y, N_Vector dy, void* self) {
         const auto& sphere = *static_cast<const SundialsSphere*>(self);
         const State<double> rate = derivative(sphere.ball_, sphere.phase_, state_in(y));
         std::copy(rate.begin(), rate.end(), N_VGetArrayPointer(dy));
         return 0;
     }
 
-    static int roots(realtype, N_Vector y, realtype* g, void* self) {
+    static int roots(sunrealtype, N_Vector y, sunrealtype* g, void* self) {
         const auto& sphere = *static_cast<const SundialsSphere*>(self);
         const auto value = guards(sphere.ball_, sphere.phase_, state_in(y));
         std::copy(value.begin(), value.end(), g);
