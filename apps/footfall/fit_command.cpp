@@ -1,4 +1,5 @@
 // footfall fit: parameters of laws from measurements.
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,6 +15,8 @@
 #include "footfall/io/fit_report.hpp"
 #include "footfall/io/table_output.hpp"
 #include "footfall/study/fit.hpp"
+#include "quantity.hpp"
+#include "table_options.hpp"
 #include "terminal.hpp"
 
 namespace footfall::cli {
@@ -21,6 +24,8 @@ namespace {
 
 struct FitArguments {
     std::filesystem::path data;
+    FitInput input;
+    std::string kind, gravity;
     std::vector<std::string> normal;
     std::string mass, speed, touchdown = "0", sigma;
     std::string loss = "none";
@@ -31,12 +36,22 @@ struct FitArguments {
     bool json = false;
 };
 
+constexpr std::array kinds{Measured::restitution, Measured::force_indentation, Measured::force_time};
+
 FitValue read(const char* option, const std::string& text, const char* unit) {
     return in_context(option, [&] { return parse_fit_value(text, unit); });
 }
 
+FitData data_of(const FitArguments& arguments) {
+    FitInput input = arguments.input;
+    for (const Measured kind : kinds)
+        if (name_of(kind) == arguments.kind) input.kind = kind;
+    if (!arguments.gravity.empty()) input.gravity = quantity("--gravity", arguments.gravity, "m/s^2");
+    return saying_how_to_skip([&] { return load_fit_data(arguments.data, input); });
+}
+
 FitStudy study_of(const FitArguments& arguments) {
-    FitStudy study{.data = load_fit_data(arguments.data)};
+    FitStudy study{.data = data_of(arguments)};
     for (const std::string& text : arguments.normal) study.laws.push_back(parse_fit_law(text));
     if (!arguments.mass.empty()) study.mass = read("--mass", arguments.mass, "kg");
     if (!arguments.speed.empty()) study.speed = read("--speed", arguments.speed, "m/s");
@@ -84,11 +99,18 @@ int run_fit(const FitArguments& arguments) {
 CLI::App* add_fit(CLI::App& app, Command& command) {
     auto a = std::make_shared<FitArguments>();
     CLI::App* fit = app.add_subcommand("fit", "Fit parameters of normal laws to measurements");
-    fit->add_option("DATA", a->data,
-                    "CSV with a header: 'speed [m/s], restitution', 'indentation [m], force [N]' (and 'rate [m/s]') "
-                    "or 'time [s], force [N]'; a column sigma weights the data")
+    fit->add_option(
+           "DATA", a->data,
+           "A table with a header: 'speed [m/s], restitution', 'indentation [m], force [N]' (and 'rate [m/s]'), "
+           "'time [s], force [N]', speeds or heights before and after, or times of bounces")
         ->required()
         ->type_name("");
+    add_table_options(*fit, a->input);
+    fit->add_option("--kind", a->kind, "What was measured, where the columns fit more than one")
+        ->check(CLI::IsMember({"restitution", "force-indentation", "force-time"}))
+        ->type_name("KIND");
+    fit->add_option("--gravity", a->gravity, "Turns heights and times of flight into speeds; by default 9.81 m/s^2")
+        ->type_name("ACCELERATION");
     fit->add_option("-n,--normal", a->normal,
                     "Law, several to compare: NAME:KEY=VALUE,... with VALUE a number, or to be fitted: ?, ?START, "
                     "?LOW..HIGH")

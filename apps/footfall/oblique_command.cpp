@@ -1,15 +1,13 @@
 // footfall oblique: a sphere that hits the ground at an angle, swept over the angle or the spin.
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -20,11 +18,13 @@
 #include "commands.hpp"
 #include "footfall/body/body.hpp"
 #include "footfall/io/law_text.hpp"
+#include "footfall/io/oblique_data.hpp"
 #include "footfall/io/table_output.hpp"
 #include "footfall/io/units.hpp"
 #include "footfall/study/damping.hpp"
 #include "footfall/study/oblique.hpp"
 #include "quantity.hpp"
+#include "table_options.hpp"
 #include "terminal.hpp"
 
 namespace footfall::cli {
@@ -42,6 +42,7 @@ struct ObliqueArguments {
     double tolerance = ObliqueSphere{}.tolerance;
     std::optional<std::filesystem::path> csv, history;
     std::filesystem::path data;     ///< --fit
+    TableInput input;               ///< how it is read
     std::vector<std::string> vary;  ///< --vary
     bool json = false;
 };
@@ -198,78 +199,28 @@ int sweep(const ObliqueArguments& arguments) {
 
 // Fitting -------------------------------------------------------------------------------------------------------------
 
-std::vector<std::string> cells_of(const std::string& line) {
-    std::vector<std::string> cells;
-    for (std::size_t begin = 0;;) {
-        const std::size_t comma = line.find(',', begin);
-        std::string cell = line.substr(begin, comma - begin);
-        cell.erase(0, cell.find_first_not_of(" \t\r"));
-        cell.erase(cell.find_last_not_of(" \t\r") + 1);
-        cells.push_back(std::move(cell));
-        if (comma == std::string::npos) return cells;
-        begin = comma + 1;
+/// Reads the data; where their signs are the other way round than the model's from the start, a warning says so.
+ObliqueData read_data(const ObliqueArguments& arguments, const ObliqueSphere& sphere) {
+    ObliqueData data = saying_how_to_skip([&] {
+        return load_oblique_data(
+            arguments.data, sphere, [&](double theta, double omega) { return approach_of(arguments, theta, omega); },
+            arguments.input);
+    });
+    for (const std::string& key : arguments.vary) {
+        if (data.needs_coefficient && key.ends_with("coefficient"))
+            throw InvalidInput(fmt::format("--vary {}: {} is in units of mu, so mu cannot be fitted to it", key,
+                                           arguments.data.string()));
     }
+    return data;
 }
 
-/// The one column that is neither angle nor spin.
-std::string observable_of(const std::vector<std::string>& head) {
-    std::string observable;
-    for (const std::string& name : head) {
-        if (name == "angle" || name == "spin") continue;
-        if (!observable.empty())
-            throw InvalidInput(fmt::format(
-                "there are two observables, '{}' and '{}'; give one, beside angle, spin or both", observable, name));
-        observable = name;
-    }
-    if (observable.empty() || head.size() < 2)
-        throw InvalidInput("expected a line of names: angle, spin or both, and one observable");
-    return observable;
+/// The data against the model: are most of them of the other sign?
+bool signs_differ(const std::vector<double>& measured, const std::vector<double>& model) {
+    return std::inner_product(measured.begin(), measured.end(), model.begin(), 0.0) < 0;
 }
 
-void read_row(const ObliqueArguments& arguments, const std::vector<std::string>& head,
-              const std::vector<std::string>& cells, ObliqueMeasurement& measured) {
-    if (cells.size() != head.size())
-        throw InvalidInput(fmt::format("{} values for {} columns", cells.size(), head.size()));
-    double theta = 0, omega = 0;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        const double value = in_context(head[i], [&] { return to_si(cells[i], "1"); });
-        if (head[i] == "angle") {
-            theta = value * degree;
-        } else if (head[i] == "spin") {
-            omega = value;
-        } else {
-            measured.values.push_back(value);
-        }
-    }
-    measured.approaches.push_back(approach_of(arguments, theta, omega));
-}
-
-/// Reads a measured curve: lines of "#" are comments, the first other line names the columns: `angle` (degrees), `spin`
-/// (rad/s) or both, and one observable.
-ObliqueMeasurement read_measurement(const ObliqueArguments& arguments) {
-    const std::string file = arguments.data.string();
-    std::ifstream stream(arguments.data);
-    if (!stream) throw std::system_error(errno, std::generic_category(), "cannot read " + file);
-    ObliqueMeasurement measured;
-    std::vector<std::string> head;
-    std::string line;
-    for (int number = 1; std::getline(stream, line); ++number) {
-        if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
-        in_context(fmt::format("{}:{}", file, number), [&] {
-            const std::vector<std::string> cells = cells_of(line);
-            if (head.empty()) {
-                head = cells;
-                measured.observable = observable_of(head);
-            } else {
-                read_row(arguments, head, cells, measured);
-            }
-        });
-    }
-    if (measured.values.empty()) throw InvalidInput(file + ": there are no measurements in it");
-    return measured;
-}
-
-std::string fit_json(const ObliqueFit& fit, const ObliqueMeasurement& measured) {
+std::string fit_json(const ObliqueFit& fit, const ObliqueData& data) {
+    const ObliqueMeasurement& measured = data.measured;
     using Json = nlohmann::ordered_json;
     Json estimates = Json::array();
     for (const FitEstimate& e : fit.result.estimates) {
@@ -285,6 +236,7 @@ std::string fit_json(const ObliqueFit& fit, const ObliqueMeasurement& measured) 
                 {"correlation", fit.result.correlation},
                 {"rms", fit.result.rms},
                 {"aicc", fit.result.aicc},
+                {"notes", data.remarks.notes},
                 {"warnings", fit.result.warnings},
                 {"normal", law_text(fit.contact.normal)},
                 {"friction", law_text(fit.contact.friction)},
@@ -293,9 +245,12 @@ std::string fit_json(const ObliqueFit& fit, const ObliqueMeasurement& measured) 
         .dump(2);
 }
 
-std::string fit_text(const ObliqueFit& fit, const ObliqueMeasurement& measured) {
-    std::string page = fmt::format("{} measurements of {}, misfit {:.4g} (root mean square)\n\n",
-                                   measured.values.size(), measured.observable, fit.result.rms);
+std::string fit_text(const ObliqueFit& fit, const ObliqueData& data) {
+    const ObliqueMeasurement& measured = data.measured;
+    std::string page = fmt::format("{} measurements of {}, misfit {:.4g} (root mean square)\n", measured.values.size(),
+                                   measured.observable, fit.result.rms);
+    for (const std::string& note : data.remarks.notes) page += fmt::format("  {}\n", note);
+    page += '\n';
     for (const FitEstimate& e : fit.result.estimates) {
         page += fmt::format("  {:<24} {:.6g}", e.name, e.value);
         if (e.standard_error) page += fmt::format(" +- {:.2g}", *e.standard_error);
@@ -305,7 +260,7 @@ std::string fit_text(const ObliqueFit& fit, const ObliqueMeasurement& measured) 
     }
     for (const FitCombination& c : fit.result.combinations)
         page += fmt::format("  determined: {} = {:.6g} +- {:.2g}\n", c.text, c.value, c.standard_error);
-    for (const std::string& warning : fit.result.warnings) page += fmt::format("\n{}\n", warning);
+    for (const std::string& warning : fit.result.warnings) page += fmt::format("\nWarning: {}\n", warning);
     return page + fmt::format("\n  --normal {}\n  --friction {}\n", law_text(fit.contact.normal),
                               law_text(fit.contact.friction));
 }
@@ -314,14 +269,23 @@ int fit(const ObliqueArguments& arguments) {
     if (arguments.vary.empty())
         throw InvalidInput("--fit needs --vary KEYS, such as friction.coefficient,friction.stiffness");
     const ObliqueSphere sphere = sphere_of(arguments);
-    const ObliqueMeasurement measured = read_measurement(arguments);
-    const ObliqueFit result = fit_oblique(sphere, measured, arguments.vary);
+    const ObliqueData data = read_data(arguments, sphere);
+    const ObliqueMeasurement& measured = data.measured;
+    ObliqueFit result = fit_oblique(sphere, measured, arguments.vary);
+    std::vector<std::string>& warnings = result.result.warnings;
+    warnings.insert(warnings.begin(), data.remarks.warnings.begin(), data.remarks.warnings.end());
+    if (signs_differ(measured.values, result.model)) {
+        warnings.push_back(fmt::format(
+            "{} has the other sign than in the model, where motion is along +x and top spin is positive; a minus before "
+            "the column turns it: --column NAME=-COLUMN",
+            measured.observable));
+    }
     if (arguments.csv) {
         write_csv(*arguments.csv, Table{"Measured and fitted",
                                         {{"measured", result.unit, measured.observable, measured.values},
                                          {"model", result.unit, measured.observable, result.model}}});
     }
-    print(arguments.json ? fit_json(result, measured) + "\n" : fit_text(result, measured));
+    print(arguments.json ? fit_json(result, data) + "\n" : fit_text(result, data));
     return ExitCode::success;
 }
 
@@ -358,9 +322,9 @@ CLI::App* add_oblique(CLI::App& app, Command& command) {
     oblique_app->add_option("--csv", a.csv, "Write the table")->type_name("FILE");
     oblique_app->add_option("--history", a.history, "Write every phase of every impact")->type_name("FILE");
     CLI::Option* data =
-        oblique_app
-            ->add_option("--fit", a.data, "Fit to a CSV file: angle, spin or both, and a measured column of --csv")
+        oblique_app->add_option("--fit", a.data, "Fit to a table: angle, spin or both, and a measured column of --csv")
             ->type_name("FILE");
+    add_table_options(*oblique_app, a.input);
     oblique_app->add_option("--vary", a.vary, "What is fitted: friction.coefficient,friction.stiffness")
         ->delimiter(',')
         ->needs(data)

@@ -1,297 +1,331 @@
-// Measurements from a CSV file, and what of a law is to be fitted.
+// Measurements from a table: which of its columns are what, and what the fit wants made of them.
 #include "footfall/io/fit_data.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "footfall/io/law_text.hpp"
-#include "footfall/io/units.hpp"
 #include "io/nearest.hpp"
-#include "io/problems.hpp"
 #include "io/read.hpp"
+#include "io/table_reader.hpp"
 
 namespace footfall {
 namespace {
 
-using io::plain_number;
-using io::Position;
-using io::trimmed;
+using io::Sought;
 
 // The file ------------------------------------------------------------------------------------------------------------
 
-/// One cell and where it begins.
-struct Cell {
-    std::string_view text;
-    Position at;
+/// The quantities that measurements may be made of.
+enum Name : std::size_t {
+    speed,
+    restitution,
+    speed_out,
+    drop_height,
+    rebound_height,
+    bounce_time,
+    flight_time,
+    indentation,
+    rate,
+    time,
+    force,
+    sigma,
 };
 
-std::vector<Cell> cells_of(std::string_view line, int number) {
-    std::vector<Cell> cells;
-    for (std::size_t begin = 0;;) {
-        const std::size_t comma = std::min(line.find(',', begin), line.size());
-        const std::string_view text = trimmed(line.substr(begin, comma - begin));
-        const std::size_t offset = text.empty() ? begin : static_cast<std::size_t>(text.data() - line.data());
-        cells.push_back({text, {number, static_cast<int>(offset) + 1}});
-        if (comma == line.size()) return cells;
-        begin = comma + 1;
-    }
-}
+// What no sphere does in a laboratory: a number beyond it without a unit was meant in another one.
+constexpr double fast = 300;         // m/s
+constexpr double deep = 0.1;         // m
+constexpr double long_contact = 10;  // s
+constexpr double high = 100;         // m
 
-/// The columns that there are.
-enum Name : std::size_t { speed, restitution, indentation, rate, time, force, sigma, name_count };
-struct Known {
-    std::string_view name, unit;
+const std::vector<Sought> quantities{
+    {.name = "speed",
+     .unit = "m/s",
+     .names = {"v",
+               "V",
+               "velocity",
+               "v_in",
+               "vin",
+               "v_i",
+               "v_0",
+               "v0",
+               "v_1",
+               "v1",
+               "v_n",
+               "vn",
+               "v_before",
+               "v_impact",
+               "impact_velocity",
+               "speed_in",
+               "velocity_in",
+               "impact_speed",
+               "approach_speed",
+               "approach_velocity",
+               "normal_speed",
+               "normal_velocity",
+               "initial_speed",
+               "initial_velocity",
+               "incident_speed",
+               "incident_velocity",
+               "incoming_speed",
+               "incoming_velocity",
+               "inbound_speed",
+               "inbound_velocity",
+               "speed_before",
+               "velocity_before",
+               "touchdown_speed",
+               "touchdown_velocity"},
+     .range = io::positive,
+     .plausible = fast},
+    {.name = "restitution",
+     .names = {"e", "e_n", "en", "cor", "coefficient_of_restitution", "restitution_coefficient", "coeff_of_restitution",
+               "coef_of_restitution", "normal_restitution"},
+     .range = {0, 1}},
+    {.name = "speed_out",
+     .unit = "m/s",
+     .names = {"v_out",
+               "vout",
+               "v_r",
+               "vr",
+               "v_f",
+               "v_2",
+               "v2",
+               "v_after",
+               "v_rebound",
+               "velocity_out",
+               "rebound_speed",
+               "rebound_velocity",
+               "speed_after",
+               "velocity_after",
+               "exit_speed",
+               "exit_velocity",
+               "final_speed",
+               "final_velocity",
+               "outgoing_speed",
+               "outgoing_velocity",
+               "outbound_speed",
+               "outbound_velocity",
+               "separation_speed",
+               "separation_velocity"},
+     .range = io::not_negative},
+    {.name = "drop_height",
+     .unit = "m",
+     .names = {"height", "h", "h_0", "h0", "h_drop", "h_in", "height_in", "drop", "fall_height", "release_height",
+               "initial_height"},
+     .range = io::positive,
+     .plausible = high},
+    {.name = "rebound_height",
+     .unit = "m",
+     .names = {"h_r", "hr", "h_rebound", "h_out", "h_bounce", "height_out", "rebound", "bounce_height",
+               "return_height"},
+     .range = io::not_negative},
+    {.name = "bounce_time",
+     .unit = "s",
+     .names = {"bounce_times", "impact_time", "time_of_impact", "time_of_bounce", "t_impact", "t_bounce"},
+     .order = Sought::Order::rising},
+    {.name = "flight_time",
+     .unit = "s",
+     .names = {"flight_times", "time_of_flight", "t_flight", "time_between_bounces", "flight_duration"},
+     .range = io::positive},
+    {.name = "indentation",
+     .unit = "m",
+     .names = {"z", "depth", "delta", "δ", "displacement", "disp", "normal_disp", "normal_displacement", "penetration",
+               "penetration_depth", "indentation_depth", "compression", "deformation", "deflection", "overlap",
+               "stroke"},
+     .plausible = deep},
+    {.name = "rate",
+     .unit = "m/s",
+     .names = {"indentation_rate", "depth_rate", "penetration_rate", "compression_rate", "deformation_rate", "zdot"}},
+    {.name = "time",
+     .unit = "s",
+     .names = {"t", "elapsed", "elapsed_time", "timestamp"},
+     .order = Sought::Order::not_falling,
+     .plausible = long_contact},
+    {.name = "force",
+     .unit = "N",
+     .names = {"F", "f", "f_n", "fn", "load", "normal_force", "normal_load", "contact_force", "impact_force",
+               "axial_force", "axial_load"}},
+    {.name = "sigma",
+     .unit = "",
+     .names = {"σ", "sd", "std", "stdev", "stddev", "std_dev", "standard_deviation", "uncertainty"},
+     .range = io::positive},
 };
-constexpr std::array<Known, name_count> known{{{"speed", "m/s"},
-                                               {"restitution", "1"},
-                                               {"indentation", "m"},
-                                               {"rate", "m/s"},
-                                               {"time", "s"},
-                                               {"force", "N"},
-                                               {"sigma", ""}}};  // that of what it belongs to
 
 constexpr std::string_view what_is_needed =
     "needed are speed and restitution, or indentation and force, or time and force";
 
+/// One way in which a table can say what it measures.
+struct Way {
+    Measured kind;
+    std::vector<Name> columns;
+};
+
+// In the order of preference: what is measured directly comes first.
+const std::vector<Way>& ways() {
+    static const std::vector<Way> all{{Measured::restitution, {speed, restitution}},
+                                      {Measured::restitution, {speed, speed_out}},
+                                      {Measured::restitution, {drop_height, restitution}},
+                                      {Measured::restitution, {drop_height, rebound_height}},
+                                      {Measured::restitution, {speed, rebound_height}},
+                                      {Measured::restitution, {drop_height, speed_out}},
+                                      {Measured::restitution, {bounce_time}},
+                                      {Measured::restitution, {flight_time}},
+                                      {Measured::force_indentation, {indentation, force}},
+                                      {Measured::force_time, {time, force}}};
+    return all;
+}
+
 class Reader {
 public:
-    explicit Reader(const std::string& name) : name_(name), problems_(name) {}
+    Reader(std::string_view text, const std::string& name, const FitInput& input)
+        : input_(input), table_(std::string(text), name, quantities, input, what_is_needed), name_(name) {}
 
-    FitData read(std::string_view text) {
-        if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the byte order mark of a spreadsheet
-        int number = 0;
-        Position end;
-        while (!text.empty()) {
-            const std::size_t length = std::min(text.find('\n'), text.size());
-            const std::string_view line = text.substr(0, length);
-            text.remove_prefix(std::min(length + 1, text.size()));
-            end = {++number, 1};
-            const std::string_view content = trimmed(line);
-            if (content.empty() || content.starts_with('#')) continue;
-            const std::vector<Cell> cells = cells_of(line, number);
-            if (!header_) {
-                head(cells);
-                if (!problems_.empty()) break;  // the rows would only say the same again
-            } else {
-                row(cells);
-            }
+    FitData read() {
+        const Way& way = choose();
+        data_.source = name_;
+        data_.kind = way.kind;
+        // The standard deviation has the unit of what it belongs to.
+        table_.set_unit(sigma, way.kind == Measured::restitution ? "1" : "N");
+        std::vector<std::size_t> used(way.columns.begin(), way.columns.end());
+        if (way.kind == Measured::force_indentation && table_.has(rate)) used.push_back(rate);
+        const bool weighted = table_.has(sigma) && way.columns.size() > 1;
+        if (weighted) used.push_back(sigma);
+        std::vector<std::vector<double>> values = table_.read(used, check_of(way));
+        if (weighted) {
+            data_.sigma = std::move(values.back());
+            values.pop_back();
         }
-        if (!header_)
-            problems_.add(end, fmt::format("there is no header line that names the columns; {}", what_is_needed));
-        if (problems_.empty() && data_.x.empty()) problems_.add(end, "there are no rows of data");
-        problems_.throw_if_any();
+        if (way.columns.size() == 1) {
+            from_bounces(way.columns.front(), values.front());
+        } else if (way.kind == Measured::restitution) {
+            from_impacts(way, values);
+        } else {
+            data_.x = std::move(values[0]);
+            data_.y = std::move(values[1]);
+            if (values.size() > 2) data_.rate = std::move(values[2]);
+        }
+        note_formulas(way);
+        data_.remarks = std::move(table_.remarks());
         return std::move(data_);
     }
 
 private:
-    struct Column {
-        Name name;
-        double factor;  ///< to SI units
-    };
+    /// What the columns measure, and by which of them.
+    const Way& choose() {
+        std::vector<const Way*> fitting;
+        std::vector<std::string> kinds;
+        for (const Way& way : ways()) {
+            const auto there = [&](Name name) { return table_.has(name); };
+            if (input_.kind && way.kind != *input_.kind) continue;
+            if (!std::all_of(way.columns.begin(), way.columns.end(), there)) continue;
+            if (fitting.empty() || fitting.back()->kind != way.kind) kinds.emplace_back(name_of(way.kind));
+            fitting.push_back(&way);
+        }
+        if (fitting.empty()) {
+            table_.refuse_header(fmt::format(
+                "the columns do not fit together{}: {}; or speeds before and after, drop and rebound heights, or times "
+                "of bounces. --column NAME=COLUMN says which column is one of these (docs/tables.md has all names)",
+                input_.kind ? fmt::format(" for {} data", name_of(*input_.kind)) : "", what_is_needed));
+        }
+        if (kinds.size() > 1) {
+            table_.refuse_header(fmt::format(
+                "the columns can be read in more than one way: choose with --kind, one of {}", io::listed(kinds)));
+        }
+        return *fitting.front();
+    }
 
-    void head(const std::vector<Cell>& cells) {
-        header_ = cells.front().at;
-        std::vector<std::string> names;
-        for (const Known& k : known) names.emplace_back(k.name);
-        std::vector<std::pair<Cell, std::string_view>> units;
-        for (const Cell& cell : cells) {
-            const std::size_t bracket = std::min(cell.text.find('['), cell.text.size());
-            const std::string_view word = trimmed(cell.text.substr(0, bracket));
-            std::string_view unit = trimmed(cell.text.substr(bracket));
-            if (!unit.empty() && !unit.ends_with(']')) {
-                problems_.add(cell.at, fmt::format("'{}': a unit stands in brackets, as in 'speed [m/s]'", cell.text));
+    /// Of a column that is a speed, or a height that is fallen or reached: v = sqrt(2 g h).
+    [[nodiscard]] double speed_of(Name column, double value) const {
+        const bool height = column == drop_height || column == rebound_height;
+        return height ? std::sqrt(2 * input_.gravity * value) : value;
+    }
+
+    /// Of a row of impacts: a quantity before and one after, or restitution itself.
+    [[nodiscard]] double restitution_of(const Way& way, std::span<const double> row) const {
+        if (way.columns[1] == restitution) return row[1];
+        return speed_of(way.columns[1], row[1]) / speed_of(way.columns[0], row[0]);
+    }
+
+    [[nodiscard]] io::RowCheck check_of(const Way& way) const {
+        if (way.kind != Measured::restitution || way.columns.size() < 2) return {};
+        return [this, &way](std::span<const double> row) -> std::optional<std::string> {
+            const double e = restitution_of(way, row);
+            if (e <= 1) return std::nullopt;
+            return fmt::format("restitution is {:.4g}, from {} {:g} and {} {:g}; allowed is from 0 to 1", e,
+                               quantities[way.columns[0]].name, row[0], quantities[way.columns[1]].name, row[1]);
+        };
+    }
+
+    void from_impacts(const Way& way, const std::vector<std::vector<double>>& values) {
+        for (std::size_t i = 0; i < values[0].size(); ++i) {
+            data_.x.push_back(speed_of(way.columns[0], values[0][i]));
+            data_.y.push_back(restitution_of(way, std::array{values[0][i], values[1][i]}));
+        }
+    }
+
+    /// Between bounces the ball flies for T: it leaves, and comes back, at g T/2.
+    void from_bounces(Name column, std::vector<double> values) {
+        if (input_.skip_bad_rows)
+            throw InvalidInput(fmt::format(
+                "{}: bad rows of successive bounces cannot be left out: without one, two flights would be one", name_));
+        if (column == bounce_time) {
+            std::adjacent_difference(values.begin(), values.end(), values.begin());
+            values.erase(values.begin());
+        }
+        if (values.size() < 2)
+            throw InvalidInput(
+                fmt::format("{}: there must be two flights at least, between three bounces; each bounce between two "
+                            "flights gives one restitution",
+                            name_));
+        for (std::size_t i = 1; i < values.size(); ++i) {
+            const double before = values[i - 1], after = values[i];
+            if (after > before) {
+                throw InvalidInput(
+                    fmt::format("{}: flight {} lasts {:g} s, longer than the {:g} s of the one before it: each must be "
+                                "shorter than "
+                                "the last; the bounces of one ball, from one drop, are wanted",
+                                name_, i + 1, after, before));
             }
-            if (unit.size() >= 2) unit = unit.substr(1, unit.size() - 2);
-            const auto found = std::find_if(known.begin(), known.end(), [&](const Known& k) { return k.name == word; });
-            if (found == known.end()) {
-                const std::string meant = io::did_you_mean(word, names);
-                problems_.add(cell.at,
-                              fmt::format("unknown column '{}'{} (columns: {})", word, meant, io::listed(names)));
-                return;
-            }
-            const auto column = static_cast<Name>(found - known.begin());
-            if (has(column)) problems_.add(cell.at, fmt::format("column '{}' is there twice", word));
-            columns_.push_back({column, 1});
-            units.emplace_back(cell, unit);
-        }
-        const bool curve = has(speed) && has(restitution), loop = has(indentation) && has(force),
-                   trace = has(time) && has(force);
-        if (curve + loop + trace != 1) {
-            problems_.add(*header_, fmt::format("the columns do not fit together: {}", what_is_needed));
-            return;
-        }
-        data_.source = name_;
-        data_.kind = curve ? Measured::restitution : loop ? Measured::force_indentation : Measured::force_time;
-        for (std::size_t i = 0; i < columns_.size(); ++i) {
-            const Name name = columns_[i].name;
-            const bool belongs = name == x_name() || name == y_name() || name == sigma || (name == rate && loop);
-            if (!belongs) {
-                problems_.add(units[i].first.at, fmt::format("column '{}' has no place in {} data", known[name].name,
-                                                             name_of(data_.kind)));
-            }
-            columns_[i].factor =
-                factor(units[i].first, units[i].second, name == sigma ? known[y_name()].unit : known[name].unit);
+            data_.x.push_back(input_.gravity * before / 2);
+            data_.y.push_back(after / before);
         }
     }
 
-    void row(const std::vector<Cell>& cells) {
-        if (cells.size() != columns_.size()) {
-            problems_.add(cells.front().at,
-                          fmt::format("{} values, where the header has {} columns", cells.size(), columns_.size()));
-            return;
-        }
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            const Name name = columns_[i].name;
-            const auto value = plain_number(cells[i].text);
-            const auto refuse = [&](std::string_view allowed) {
-                problems_.add(cells[i].at,
-                              fmt::format("{} is '{}'; allowed is {}", known[name].name, cells[i].text, allowed));
-            };
-            if (!value || !std::isfinite(*value)) {
-                refuse("a finite number");
-                continue;
-            }
-            const double si = *value * columns_[i].factor;
-            if ((name == speed || name == sigma) && !(si > 0)) refuse("> 0");
-            if (name == restitution && !(si >= 0 && si <= 1)) refuse("from 0 to 1");
-            if (name == time && !data_.x.empty() && si < data_.x.back()) refuse("not before the row above");
-            auto& into = name == x_name()   ? data_.x
-                         : name == y_name() ? data_.y
-                         : name == rate     ? data_.rate
-                                            : data_.sigma;
-            into.push_back(si);
-        }
+    void note_formulas(const Way& way) {
+        if (way.kind != Measured::restitution) return;
+        const auto has = [&way](Name name) {
+            return std::find(way.columns.begin(), way.columns.end(), name) != way.columns.end();
+        };
+        std::string formula;
+        if (has(drop_height) || has(rebound_height)) formula = "speeds are sqrt(2 g height)";
+        if (way.columns.size() == 1) formula = "speeds are g/2 times the times of flight";
+        if (formula.empty()) return;
+        table_.remarks().notes.push_back(fmt::format("Computed: {}, with g = {:g} m/s^2.", formula, input_.gravity));
     }
 
-    [[nodiscard]] bool has(Name name) const {
-        return std::any_of(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
-    }
-    [[nodiscard]] Name x_name() const {
-        switch (data_.kind) {
-            case Measured::restitution:
-                return speed;
-            case Measured::force_indentation:
-                return indentation;
-            case Measured::force_time:
-                break;
-        }
-        return time;
-    }
-    [[nodiscard]] Name y_name() const { return data_.kind == Measured::restitution ? restitution : force; }
-
-    double factor(const Cell& cell, std::string_view unit, std::string_view si_unit) {
-        if (unit.empty()) return 1;
-        try {
-            return to_si(fmt::format("1 {}", unit == "1" ? "" : unit), si_unit);
-        } catch (const InvalidInput& error) {
-            problems_.add(cell.at, fmt::format("'{}': {}", cell.text, error.what()));
-            return 1;
-        }
-    }
-
-    const std::string& name_;
-    io::Problems problems_;
-    std::optional<Position> header_;
-    std::vector<Column> columns_;
+    const FitInput& input_;
+    io::TableReader table_;
+    std::string name_;
     FitData data_;
 };
 
-// What is asked -------------------------------------------------------------------------------------------------------
-
-double read_number(std::string_view text, std::string_view unit, bool plain_only) {
-    if (const auto plain = plain_number(text); plain && std::isfinite(*plain)) return *plain;
-    if (plain_only) {
-        throw InvalidInput(
-            fmt::format("expected a plain number (its unit depends on other parameters), got '{}'", text));
-    }
-    return to_si(text, unit);
-}
-
 }  // namespace
 
-FitData load_fit_data(const std::filesystem::path& file) { return parse_fit_data(io::read_file(file), file.string()); }
-
-FitData parse_fit_data(std::string_view text, const std::string& name) { return Reader(name).read(text); }
-
-FitValue parse_fit_value(std::string_view text, std::string_view unit, bool plain_only) {
-    text = trimmed(text);
-    FitValue read;
-    if (!text.starts_with('?')) {
-        read.value = read_number(text, unit, plain_only);
-        return read;
-    }
-    read.free = true;
-    const std::string_view rest = trimmed(text.substr(1));
-    if (rest.empty()) return read;
-    const std::size_t dots = rest.find("..");
-    if (dots == std::string_view::npos) {
-        read.value = read_number(rest, unit, plain_only);
-        return read;
-    }
-    read.low = read_number(trimmed(rest.substr(0, dots)), unit, plain_only);
-    read.high = read_number(trimmed(rest.substr(dots + 2)), unit, plain_only);
-    if (!(*read.low < *read.high)) {
-        throw InvalidInput(fmt::format("'{}': the lower bound must come first, as in ?1e3..1e5", text));
-    }
-    return read;
+FitData load_fit_data(const std::filesystem::path& file, const FitInput& input) {
+    return parse_fit_data(io::read_file(file), file.string(), input);
 }
 
-FitLaw parse_fit_law(std::string_view text) {
-    const std::size_t colon = std::min(text.find(':'), text.size());
-    // What parse_normal_law is to check, with a number that every parameter allows in place of those to be fitted.
-    std::string given(text.substr(0, colon));
-    std::vector<std::pair<std::string, std::string_view>> free;
-    char separator = ':';
-    for (std::size_t begin = colon; begin < text.size();) {
-        const std::size_t comma = std::min(text.find(',', begin + 1), text.size());
-        const std::string_view setting = text.substr(begin + 1, comma - begin - 1);
-        const std::size_t equals = setting.find('=');
-        const std::string_view value = equals == std::string_view::npos ? "" : trimmed(setting.substr(equals + 1));
-        given += std::exchange(separator, ',');
-        if (value.starts_with('?')) {
-            free.emplace_back(trimmed(setting.substr(0, equals)), value);
-            given += fmt::format("{}=1", free.back().first);
-        } else {
-            given += setting;
-        }
-        begin = comma;
-    }
-    FitLaw law{parse_normal_law(given), {}};
-    if (free.empty()) {
-        throw InvalidInput(fmt::format(
-            "normal law '{}': nothing is to be fitted; mark what is with a question mark, as in stiffness=?", text));
-    }
-    std::visit(
-        [&]<class Law>(const Law&) {
-            for (const auto& [key, value] : free) {
-                for (const auto& parameter : Law::parameters()) {
-                    if (parameter.key != key) continue;
-                    try {
-                        law.free.push_back({key, parse_fit_value(value, parameter.unit, parameter.unit_depends)});
-                    } catch (const InvalidInput& error) {
-                        throw InvalidInput(
-                            fmt::format("normal law '{}': {}: {}", Law::description.name, key, error.what()));
-                    }
-                    const FitValue& read = law.free.back().value;
-                    for (const auto& number : {read.value, read.low, read.high}) {
-                        if (number && !(*number > 0 && parameter.allows(*number))) {
-                            throw InvalidInput(fmt::format(
-                                "normal law '{}': {}={}: a parameter is fitted in its "
-                                "logarithm; allowed is > 0{}",
-                                Law::description.name, key, value, parameter.at_most_one ? " and <= 1" : ""));
-                        }
-                    }
-                }
-            }
-        },
-        law.law);
-    return law;
+FitData parse_fit_data(std::string_view text, const std::string& name, const FitInput& input) {
+    if (!(std::isfinite(input.gravity) && input.gravity > 0))
+        throw InvalidInput(fmt::format("gravity: {} m/s^2 is not allowed: must be > 0 and finite", input.gravity));
+    return Reader(text, name, input).read();
 }
 
 }  // namespace footfall

@@ -13,6 +13,7 @@
 #include "footfall/io/law_text.hpp"
 #include "footfall/io/units.hpp"
 #include "footfall/version.hpp"
+#include "io/table_remarks.hpp"
 #include "io/text.hpp"
 
 namespace footfall {
@@ -106,12 +107,7 @@ std::string law_report(const FitStudyResult& result, const LawFit& fit) {
     if (result.study.options.starts > 1) {
         page += fmt::format("  {} of {} starts came to this minimum\n", r.starts_agreeing, result.study.options.starts);
     }
-    for (const std::string& warning : r.warnings) {
-        bool first = true;
-        for (const std::string& line : text::wrap("Warning: " + warning, 96)) {
-            page += (std::exchange(first, false) ? "  " : "    ") + line + "\n";
-        }
-    }
+    for (const std::string& warning : r.warnings) page += text::hanging("Warning: " + warning);
     page += fmt::format("  --normal \"{}\"\n", law_text(fit.law));
     return page;
 }
@@ -188,6 +184,7 @@ Json law_fit_of(const LawFit& fit, const FitData& data) {
 std::string report(const FitStudyResult& result) {
     const FitData& data = result.study.data;
     std::string page = fmt::format("{}: {}, {} data\n", data.source, measured_text(data), data.x.size());
+    page += io::remarks_text(data.remarks);
     for (const LawFit& fit : result.fits) page += "\n" + law_report(result, fit);
     if (result.fits.size() > 1) {
         page += "\nThe laws side by side\n";
@@ -209,6 +206,8 @@ std::string to_json(const FitStudyResult& result) {
     const Json json{{"data", data.source},
                     {"kind", name_of(data.kind)},
                     {"count", data.x.size()},
+                    {"notes", data.remarks.notes},
+                    {"warnings", io::warnings_json(data.remarks)},
                     {"confidence", result.study.options.confidence},
                     {"best", name_of(result.fits[result.best()].law)},
                     {"laws", laws},

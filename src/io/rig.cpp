@@ -1,17 +1,16 @@
 // From a rig file to a Rig.
 #include "footfall/io/rig.hpp"
 
-#include <charconv>
+#include <array>
 #include <cmath>
-#include <fstream>
-#include <optional>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "io/document.hpp"
-#include "io/nearest.hpp"
 #include "io/read.hpp"
 #include "io/scenario_keys.hpp"
+#include "io/table_reader.hpp"
 
 namespace footfall {
 namespace {
@@ -77,7 +76,7 @@ Table part_table(const std::string& unit, bool in_plane) {
           cycles}},
         {"triangle", "like a sine, but straight between its extremes", {amplitude, frequency, start, cycles}},
         {"table",
-         "points of a CSV file with a header, in SI units, straight between them",
+         "points of a table with a header, straight between them; numbers without a unit are in SI units",
          {{.name = "file",
            .form = Form::text,
            .required = true,
@@ -87,7 +86,7 @@ Table part_table(const std::string& unit, bool in_plane) {
            .form = Form::text,
            .required = true,
            .example = "\"displacement\"",
-           .description = "the name of the column with the values"},
+           .description = "the name of the column with the values, and its unit if the table has none: \"x [mm]\""},
           {.name = "time",
            .form = Form::text,
            .fallback_text = "time",
@@ -151,63 +150,34 @@ Table table_of(const io::Choices& choices) {
                      io::table_key("contact", std::move(contact), true)}};
 }
 
+// The paths of a rig: their keys, and what a table of points holds for each.
+const io::Sought indentation{.name = "indentation", .unit = "m", .plausible = 0.1};
+const io::Sought load{.name = "load", .unit = "N"};
+const io::Sought displacement{.name = "displacement", .unit = "m"};
+const io::Sought velocity{.name = "velocity", .unit = "m/s"};
+const io::Sought support{.name = "support", .unit = "m"};
+const io::Sought force{.name = "force", .unit = "N"};
+const io::Sought belt{.name = "belt", .unit = "m/s"};
+
 // Tables of points ----------------------------------------------------------------------------------------------------
 
-std::vector<std::string> cells_of(std::string_view line) {
-    std::vector<std::string> cells;
-    for (;;) {
-        const std::size_t comma = line.find(',');
-        cells.emplace_back(io::trimmed(line.substr(0, comma)));
-        if (comma == std::string_view::npos) return cells;
-        line.remove_prefix(comma + 1);
-    }
-}
-
-/// Reads two columns of a CSV file. Throws InvalidInput with file and line.
-TablePart read_points(const std::filesystem::path& file, const std::string& time, const std::string& column) {
-    std::ifstream stream(file);
-    if (!stream || std::filesystem::is_directory(file))
-        throw InvalidInput(fmt::format("cannot read {}", file.string()));
-    TablePart table;
-    std::optional<std::pair<std::size_t, std::size_t>> columns;
-    std::size_t width = 0;
-    std::string line;
-    for (int number = 1; std::getline(stream, line); ++number) {
-        const std::string_view content = io::trimmed(line);
-        if (content.empty() || content.front() == '#') continue;
-        const auto fail = [&](const std::string& what) {
-            throw InvalidInput(fmt::format("{}:{}: {}", file.string(), number, what));
-        };
-        const std::vector<std::string> cells = cells_of(content);
-        if (!columns) {
-            const auto find = [&](const std::string& name) {
-                for (std::size_t i = 0; i < cells.size(); ++i)
-                    if (cells[i] == name) return i;
-                fail(fmt::format("no column '{}'{} (columns here: {})", name, io::did_you_mean(name, cells),
-                                 io::listed(cells)));
-                return cells.size();
-            };
-            columns.emplace(find(time), find(column));
-            width = cells.size();
-            continue;
-        }
-        if (cells.size() != width) fail(fmt::format("{} cells, the header has {}", cells.size(), width));
-        const auto value = [&](std::size_t i) {
-            double x = 0;
-            const std::string& cell = cells[i];
-            const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), x);
-            if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(x))
-                fail(fmt::format("'{}' is not a finite number", cell));
-            return x;
-        };
-        const double t = value(columns->first);
-        if (!table.time.empty() && !(t > table.time.back()))
-            fail(fmt::format("time {:.6g} s is not after {:.6g} s", t, table.time.back()));
-        table.time.push_back(t);
-        table.value.push_back(value(columns->second));
-    }
-    if (table.time.size() < 2) throw InvalidInput(fmt::format("{}: at least two rows are needed", file.string()));
-    return table;
+/// Reads the times and the values of a path from a table; `unit` is that of the values. Throws ScenarioError with file
+/// and line, or std::system_error.
+TablePart read_points(const std::filesystem::path& file, const std::string& time, const std::string& column,
+                      const io::Sought& sought, TableRemarks& remarks) {
+    enum : std::size_t { of_time, of_value };
+    TableInput input{.columns = {{std::string(sought.name), column}}, .where = {}};
+    // The default is a time by any of its names.
+    if (time != "time") input.columns.emplace("time", time);
+    io::TableReader table(io::read_file(file), file.string(),
+                          {{.name = "time", .unit = "s", .names = {"t"}, .order = io::Sought::Order::rising}, sought},
+                          input, "needed are a time and the column of the path");
+    if (!table.has(of_time)) table.refuse_header("there is no column 'time'; `time` names it");
+    std::vector<std::vector<double>> values = table.read(std::array{std::size_t{of_time}, std::size_t{of_value}});
+    if (values[of_time].size() < 2) throw InvalidInput(fmt::format("{}: at least two rows are needed", file.string()));
+    // Which columns are read is for the rig to say; the others are not named.
+    for (std::string& warning : table.remarks().warnings) remarks.warnings.push_back(std::move(warning));
+    return {std::move(values[of_time]), std::move(values[of_value])};
 }
 
 // The rig -------------------------------------------------------------------------------------------------------------
@@ -226,17 +196,17 @@ public:
         rig.tolerance = record.number("tolerance");
         rig.max_evaluations = record.number("max_evaluations");
         rig.press = record.has("load") ? Press::load : Press::indentation;
-        rig.pressing = line(record, rig.press == Press::load ? "load" : "indentation");
+        rig.pressing = rig.press == Press::load ? line(record, load) : line(record, indentation);
         if (record.has("velocity")) {
             rig.drag = Drag::velocity;
-            rig.dragging = plane(record, "velocity");
+            rig.dragging = plane(record, velocity);
         } else if (record.has("mass")) {
             rig.drag = Drag::mass;
             const Record& mass = record.table("mass");
-            rig.mass = {mass.number("mass"),    mass.number("stiffness"), mass.number("damping"),
-                        plane(mass, "support"), plane(mass, "force"),     plane(mass, "belt")};
+            rig.mass = {mass.number("mass"),  mass.number("stiffness"), mass.number("damping"),
+                        plane(mass, support), plane(mass, force),       plane(mass, belt)};
         } else {
-            rig.dragging = plane(record, "displacement");
+            rig.dragging = plane(record, displacement);
         }
         const Record& contact = root_.table("contact");
         made_.laws.normal = law<NormalLaw>(contact.table("normal"));
@@ -257,7 +227,7 @@ private:
         return made;
     }
 
-    PathPart part(const Record& record) {
+    PathPart part(const Record& record, const io::Sought& sought) {
         const std::string& shape = record.text("shape");
         if (shape == "constant") return ConstantPart{record.number("value")};
         if (shape == "ramp")
@@ -270,24 +240,32 @@ private:
             return TrianglePart{record.number("amplitude"), record.number("frequency"), record.number("start"),
                                 cycles()};
         try {
-            return read_points(folder_ / record.text("file"), record.text("time"), record.text("column"));
+            return read_points(folder_ / record.text("file"), record.text("time"), record.text("column"), sought,
+                               made_.rig.remarks);
+        } catch (const ScenarioError& error) {
+            for (const ScenarioProblem& problem : error.problems()) {
+                problems_.add(record["file"].at, fmt::format("{}:{}:{}: {}", (folder_ / record.text("file")).string(),
+                                                             problem.line, problem.column, problem.message));
+            }
         } catch (const InvalidInput& error) {
             problems_.add(record["file"].at, error.what());
-            return ConstantPart{};
+        } catch (const std::system_error& error) {
+            problems_.add(record["file"].at, error.what());
         }
+        return ConstantPart{};
     }
 
-    Path line(const Record& record, std::string_view key) {
+    Path line(const Record& record, const io::Sought& sought) {
         Path path;
-        for (const Record& each : record[key].records) path.add(part(each));
+        for (const Record& each : record[sought.name].records) path.add(part(each, sought));
         return path;
     }
 
-    PlanePath plane(const Record& record, std::string_view key) {
+    PlanePath plane(const Record& record, const io::Sought& sought) {
         PlanePath path;
-        if (!record.has(key)) return path;
-        for (const Record& each : record[key].records) {
-            const Path along{{part(each)}};
+        if (!record.has(sought.name)) return path;
+        for (const Record& each : record[sought.name].records) {
+            const Path along{{part(each, sought)}};
             const double angle = each.number("direction");
             // A right angle in degrees is not one in binary: what remains of it is nothing.
             const auto share = [](double x) { return std::abs(x) < 1e-15 ? 0.0 : x; };

@@ -9,6 +9,7 @@
 #include "footfall/io/rig.hpp"
 #include "footfall/io/table_output.hpp"
 #include "footfall/version.hpp"
+#include "io/table_remarks.hpp"
 #include "io/text.hpp"
 
 namespace footfall {
@@ -123,6 +124,7 @@ std::string to_json(const Rig& rig, const std::vector<RigRun>& runs) {
     Json list = Json::array();
     for (const RigRun& run : runs) list.push_back(run_of(run));
     const Json json{{"title", rig.title},
+                    {"warnings", io::warnings_json(rig.remarks)},
                     {"runs", list},
                     {"samples", Json::parse(to_json(drive_table(rig, named(runs))))["columns"]},
                     {"version", version}};
@@ -131,6 +133,7 @@ std::string to_json(const Rig& rig, const std::vector<RigRun>& runs) {
 
 std::string summary(const Rig& rig, const std::vector<RigRun>& runs) {
     std::string page = rig.title.empty() ? "" : rig.title + "\n\n";
+    page += io::remarks_text(rig.remarks);
     for (const RigRun& run : runs) {
         for (const std::string& line : text::wrap(fmt::format("{}: normal {}; friction {}", run.named.name,
                                                               law_text(run.laws.normal), law_text(run.laws.friction)),

@@ -98,6 +98,14 @@ std::vector<std::string> wrap(std::string_view text, std::size_t columns) {
     return lines;
 }
 
+std::string hanging(std::string_view text) {
+    constexpr std::size_t page_width = 100, indent = 4;
+    std::string page;
+    for (const std::string& line : wrap(text, page_width - indent))
+        page += (page.empty() ? "  " : "    ") + line + '\n';
+    return page;
+}
+
 void Table::head(std::vector<std::string> names) {
     std::vector<std::string> above;
     for (std::string& name : names) {

@@ -33,6 +33,9 @@ struct Prefix {
 /// `text` broken between words into lines of at most `columns` characters.
 [[nodiscard]] std::vector<std::string> wrap(std::string_view text, std::size_t columns);
 
+/// A paragraph for a page, indented by two, its further lines by four, each with a line break.
+[[nodiscard]] std::string hanging(std::string_view text);
+
 enum class Align {
     left,
     right,

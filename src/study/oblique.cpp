@@ -280,14 +280,20 @@ Table oblique_history(std::span<const ObliqueImpact> impacts) {
 
 namespace {
 
+/// Those quantities that can be measured.
+std::vector<const Quantity*> measurable() {
+    std::vector<const Quantity*> all;
+    for (const auto& list : {std::span<const Quantity>(after), std::span<const Quantity>(course)})
+        for (const Quantity& q : list)
+            if (q.measurable) all.push_back(&q);
+    return all;
+}
+
 const Quantity& observable(std::string_view name) {
     std::vector<std::string_view> known;
-    for (const auto& list : {std::span<const Quantity>(after), std::span<const Quantity>(course)}) {
-        for (const Quantity& q : list) {
-            if (!q.measurable) continue;
-            if (q.name == name) return q;
-            known.push_back(q.name);
-        }
+    for (const Quantity* q : measurable()) {
+        if (q->name == name) return *q;
+        known.push_back(q->name);
     }
     throw InvalidInput(fmt::format("'{}' is nothing that an oblique impact is measured by; there are {}", name,
                                    fmt::join(known, ", ")));
@@ -335,6 +341,15 @@ Place place_of(ContactParameters& contact, std::string_view key) {
 }
 
 }  // namespace
+
+std::span<const ObliqueObservable> oblique_observables() {
+    static const std::vector<ObliqueObservable> all = [] {
+        std::vector<ObliqueObservable> list;
+        for (const Quantity* q : measurable()) list.push_back({q->name, q->unit});
+        return list;
+    }();
+    return all;
+}
 
 ObliqueFit fit_oblique(const ObliqueSphere& start, const ObliqueMeasurement& measured,
                        std::span<const std::string> keys, const FitOptions& options) {

@@ -66,7 +66,9 @@ TEST_F(FitCli, WrongDataAndWrongOptionsExitWithTwo) {
     Result result = fit(bad + " --mass 1" + paper);
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_EQ(result.out, "");
-    EXPECT_EQ(result.err, "footfall: " + bad + ":3:5: restitution is '1.9'; allowed is from 0 to 1\n");
+    EXPECT_EQ(result.err,
+              "footfall: " + bad +
+                  ":3:5: restitution is '1.9'; allowed is from 0 to 1\n--skip-bad-rows leaves such rows out\n");
     for (const std::string& arguments :
          {data + "restitution.csv" + paper,   // no mass
           data + "restitution.csv --mass 1",  // no law
@@ -77,6 +79,46 @@ TEST_F(FitCli, WrongDataAndWrongOptionsExitWithTwo) {
         EXPECT_EQ(result.exit_code, 2) << arguments << result.out;
         EXPECT_EQ(result.err.find("footfall: "), 0U) << result.err;
         EXPECT_EQ(result.out, "");
+    }
+}
+
+TEST_F(FitCli, SaysWhatItMadeOfALaboratorysTable) {
+    const std::string file =
+        folder.write("lab.csv", "no;v_in [mm/s];COR;remark\n1;100;0,779;\n2;200;0,75;good\n3;400;x;\n4;800;0,7;\n")
+            .string();
+    const Result refused = fit(file + " --mass 154g --normal azad-featherstone:stiffness=8.5e6,damping=?");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_TRUE(contains(refused.err, "lab.csv:4:7: restitution is 'x'; allowed is a finite number")) << refused.err;
+    EXPECT_TRUE(contains(refused.err, "--skip-bad-rows leaves such rows out")) << refused.err;
+    const Result result =
+        fit(file + " --skip-bad-rows --mass 154g --normal azad-featherstone:stiffness=8.5e6,damping=?");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    for (const char* words :
+         {"restitution against speed, 3 data", "Read: speed in mm/s from 'v_in [mm/s]', restitution from 'COR'.",
+          "Columns that are not used: no, remark.", "1 of 4 rows could not be used and were left out: line 4.",
+          "Decimal commas."})
+        EXPECT_TRUE(contains(result.out, words)) << words << "\n" << result.out;
+    const Json json = Json::parse(fit(file + " --json --column speed=no --skip-bad-rows --mass 154g --normal "
+                                             "azad-featherstone:stiffness=8.5e6,damping=?")
+                                      .out);
+    EXPECT_EQ(json["notes"].size(), 4U);
+    EXPECT_TRUE(json["warnings"].empty());
+}
+
+TEST_F(FitCli, WrongTableOptionsExitWithTwo) {
+    const std::string file = data + "restitution.csv --mass 154g --normal azad-featherstone:stiffness=8.5e6,damping=? ";
+    for (const auto& [words, reason] : std::vector<std::pair<std::string, std::string>>{
+             {"--column speed", "'speed' is not allowed: write QUANTITY=COLUMN"},
+             {"--column sped=v", "unknown quantity 'sped': did you mean 'speed'?"},
+             {"--column speed=v", "no column 'v'"},
+             {"--column speed=a --column speed=b", "speed is given twice"},
+             {"--where =1", "write COLUMN=VALUE"},
+             {"--where series=1", "no column 'series'"},
+             {"--kind force", "force"},
+             {"--gravity -1", "gravity"}}) {
+        const Result result = fit(file + words);
+        EXPECT_EQ(result.exit_code, 2) << words;
+        EXPECT_TRUE(contains(result.err, reason)) << result.err;
     }
 }
 

@@ -88,6 +88,46 @@ TEST_F(ObliqueCli, FitsTheCoefficientToAMeasuredCurve) {
               std::string::npos);
 }
 
+TEST_F(ObliqueCli, ReadsThePublishedAngleFilesAsTheyAre) {
+    const std::string published = FOOTFALL_SOURCE_DIR "/data/published/";
+    const struct {
+        std::string words, observable;
+        std::size_t count;  // of rows, by hand
+    } files[]{{"chung_ooi_test4_et.csv", "tangential_restitution", 13},
+              {"chung_ooi_test4_rebound.csv", "contact_rebound_angle", 13},
+              {"chung_ooi_test4_omega.csv --where series=Experiment", "spin_after", 10},
+              {"chung_ooi_test5_psi2_psi1.csv --where series=Steel", "contact_velocity_after", 15},
+              {"chung_ooi_test5_romega.csv --where series=Steel", "spin_after", 15},
+              {"chung_ooi_test6_beta.csv", "contact_restitution", 17},
+              {"kharaz2001_lethe.csv --where quantity=et", "tangential_restitution", 8},
+              {"kharaz2001_lethe.csv --where quantity=omega_rad_s", "spin_after", 7},
+              {"kharaz2001_lethe.csv --where quantity=rebound_deg_centre", "rebound_angle", 9}};
+    for (const auto& file : files) {
+        const Result answer =
+            oblique(ball + friction + "--vary friction.stiffness --json --fit " + published + file.words);
+        ASSERT_EQ(answer.exit_code, 0) << answer.err;
+        const Json json = Json::parse(answer.out);
+        EXPECT_EQ(json["observable"], file.observable) << file.words;
+        EXPECT_EQ(json["measured"].size(), file.count) << file.words;
+    }
+}
+
+TEST_F(ObliqueCli, WarnsOfSignsThatAreTheOtherWayRound) {
+    const std::string file = std::string(FOOTFALL_SOURCE_DIR) + "/data/published/chung_ooi_test4_omega.csv";
+    const std::string words = ball + friction + "--vary friction.stiffness --where series=Experiment --fit " + file;
+    EXPECT_NE(oblique(words).out.find("Warning: spin_after has the other sign"), std::string::npos);
+    const Result turned = oblique(words + " --column spin_after=-final_omega_rad_s");
+    EXPECT_EQ(turned.exit_code, 0) << turned.err;
+    EXPECT_EQ(turned.out.find("other sign"), std::string::npos) << turned.out;
+}
+
+TEST_F(ObliqueCli, TheCoefficientIsNotFittedToWhatIsInItsUnits) {
+    const std::string file = std::string(FOOTFALL_SOURCE_DIR) + "/data/published/chung_ooi_test6_beta.csv";
+    const Result answer = oblique(ball + friction + "--vary friction.coefficient --fit " + file);
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_NE(answer.err.find("in units of mu"), std::string::npos) << answer.err;
+}
+
 TEST_F(ObliqueCli, WrongInputExitsWithTwoAndSaysWhereItIs) {
     const auto refuse = [&](const std::string& words, const std::string& reason) {
         const Result answer = oblique(words);
@@ -110,11 +150,11 @@ TEST_F(ObliqueCli, WrongInputExitsWithTwoAndSaysWhereItIs) {
     const auto data = [&](const std::string& text) {
         return "--vary friction.coefficient --fit " + folder.write("d.csv", text).string();
     };
-    refuse(good + data("angle,spin_after\n10,x\n"), "d.csv:2: spin_after");
-    refuse(good + data("angle,spin_after\n10\n"), "d.csv:2: 1 values for 2 columns");
-    refuse(good + data("angle,spin_after,rebound_angle\n"), "two observables");
+    refuse(good + data("angle,spin_after\n10,x\n"), "d.csv:2:4: spin_after is 'x'");
+    refuse(good + data("angle,spin_after\n10\n"), "d.csv:2:1: 1 values, where the header has 2 columns");
+    refuse(good + data("angle,spin_after,rebound_angle\n1,1,1\n"), "2 measured columns, 'rebound_angle', 'spin_after'");
     refuse(good + data("angle,colour\n10,1\n"), "colour");
-    refuse(good + data("angle,spin_after\n"), "no measurements");
+    refuse(good + data("angle,spin_after\n"), "no rows of data");
     refuse(good + "--vary friction.coefficient --fit " + (folder / "none.csv").string(), "none.csv");
     refuse(good + "--fit " + folder.write("d.csv", "angle,spin_after\n10,1\n").string(), "--vary");
 }

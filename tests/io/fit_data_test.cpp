@@ -71,8 +71,6 @@ TEST(FitData, SaysWhatIsWrongWithTheHeader) {
                          "ball.csv:1:1: 'speed [m]': expected a velocity (m/s), got a length (m)"));
     EXPECT_TRUE(contains(error_of("speed [m/s,restitution\n1,1\n"), "a unit stands in brackets"));
     EXPECT_TRUE(contains(error_of("speed,speed,restitution\n1,1,1\n"), "ball.csv:1:7: column 'speed' is there twice"));
-    EXPECT_TRUE(
-        contains(error_of("time [s],force [N],rate [m/s]\n1,1,1\n"), "column 'rate' has no place in force-time data"));
     EXPECT_TRUE(contains(error_of("# nothing\n"), "no header line"));
     EXPECT_TRUE(contains(error_of("speed,restitution\n"), "no rows of data"));
 }

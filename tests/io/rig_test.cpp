@@ -123,6 +123,53 @@ TEST(RigFile, ReadsPointsFromATableBesideIt) {
     EXPECT_DOUBLE_EQ(file.rig.pressing.at(5).value, 3e-3);
 }
 
+TEST(RigFile, ATableMayHaveAnyUnitHoweverItIsWritten) {
+    // 4 mm at 1 s, in every way of saying it.
+    const std::vector<std::pair<std::string, std::string>> tables{
+        {"x [mm]", "time [s],x [mm]\n0,0\n1,4\n"},
+        {"x", "time [s],x [mm]\n0,0\n1,4\n"},
+        {"x [mm]", "time,x\n0,0\n1,4\n"},
+        {"x_mm", "t_ms;x_mm\n0;0\n1000;4,0\n"},
+        {"x", "time (s)\tx (mm)\n0\t0\n1\t4\n"},
+        {"x", "time,x\ns,mm\n0,0\n1,4\n"},
+        {"x", "time [ms] x [um]\n0 0\n1000 4000\n"},
+        {"-x", "time [min],x [cm]\n0,0\n0.016666666666666667,-.4\n"},
+    };
+    for (const auto& [column, table] : tables) {
+        const TemporaryFolder folder;
+        folder.write("path.csv", table);
+        folder.write("rig.toml",
+                     rig(pressed + "[[rig.displacement]]\nshape = \"table\"\nfile = \"path.csv\"\ncolumn = \"" +
+                         column + "\"\n"));
+        const RigFile file = load_rig(folder / "rig.toml");
+        EXPECT_DOUBLE_EQ(file.rig.dragging[0].at(1).value, 4e-3) << table;
+        EXPECT_DOUBLE_EQ(file.rig.dragging[0].at(0.5).value, 2e-3) << table;
+        EXPECT_TRUE(file.rig.remarks.warnings.empty());
+    }
+}
+
+TEST(RigFile, RefusesAUnitThatTheTableContradicts) {
+    const TemporaryFolder folder;
+    folder.write("path.csv", "time,x [mm]\n0,0\n1,4\n");
+    const std::string text = rig("[[rig.indentation]]\nshape = \"table\"\nfile = \"path.csv\"\ncolumn = \"x [m]\"\n");
+    try {
+        (void)parse_rig(text, folder / "rig.toml");
+        ADD_FAILURE();
+    } catch (const ScenarioError& error) {
+        EXPECT_NE(std::string(error.what()).find("'x [mm]' has the unit mm, but x [m] asks for m"), std::string::npos)
+            << error.what();
+    }
+}
+
+TEST(RigFile, WarnsOfDepthsInMetresThatNobodyGaveAUnit) {
+    const TemporaryFolder folder;
+    folder.write("path.csv", "time,depth\n0,0\n1,4\n");
+    const RigFile file = parse_rig(
+        rig("[[rig.indentation]]\nshape = \"table\"\nfile = \"path.csv\"\ncolumn = \"depth\"\n"), folder / "rig.toml");
+    ASSERT_EQ(file.rig.remarks.warnings.size(), 1u);
+    EXPECT_NE(file.rig.remarks.warnings[0].find("column 'depth' has no unit"), std::string::npos);
+}
+
 TEST(RigFile, SaysWhereATableIsWrong) {
     const TemporaryFolder folder;
     const std::string text = rig("[[rig.indentation]]\nshape = \"table\"\nfile = \"path.csv\"\ncolumn = \"depth\"\n");
@@ -140,11 +187,13 @@ TEST(RigFile, SaysWhereATableIsWrong) {
     const auto expect = [&](const std::string& table, const std::string& words) {
         EXPECT_NE(refused(table).find(words), std::string::npos) << refused(table);
     };
-    expect("time,dept\n0,1\n1,2\n", "path.csv:1: no column 'depth': did you mean 'dept'?");
-    expect("time,depth\n0,1\n1,x\n", "path.csv:3: 'x' is not a finite number");
-    expect("time,depth\n0,1\n1,inf\n", "path.csv:3: 'inf' is not a finite number");
-    expect("time,depth\n0,1\n1\n", "path.csv:3: 1 cells, the header has 2");
-    expect("time,depth\n1,1\n# no\n1,2\n", "path.csv:4: time 1 s is not after 1 s");
+    expect("time,dept\n0,1\n1,2\n", "path.csv:1:1: indentation: no column 'depth': did you mean 'dept'?");
+    expect("time,depth\n0,1\n1,x\n", "path.csv:3:3: indentation is 'x'; allowed is a finite number");
+    expect("time,depth\n0,1\n1,inf\n", "path.csv:3:3: indentation is 'inf'; allowed is a finite number");
+    expect("time,depth\n0,1\n1\n", "path.csv:3:1: 1 values, where the header has 2 columns");
+    expect("time,depth\n1,1\n# no\n1,2\n", "path.csv:4:1: time is '1'; allowed is after the row above");
+    expect("clock,depth\n0,1\n1,2\n", "path.csv:1:1: there is no column 'time'");
+    expect("time,depth [s]\n0,1\n1,2\n", "path.csv:1:6: 'depth [s]': expected a length (m), got a time (s)");
     expect("time,depth\n0,1\n", "at least two rows are needed");
     std::filesystem::remove(folder / "path.csv");
     EXPECT_THROW((void)parse_rig(text, folder / "rig.toml"), ScenarioError);

@@ -32,6 +32,7 @@ struct FitData {
     std::vector<double> y;      ///< restitution in [0, 1], or force [N]
     std::vector<double> rate;   ///< zdot [m/s]; force_indentation only, optional
     std::vector<double> sigma;  ///< standard deviation of y, > 0; empty: the same, unknown one for all
+    TableRemarks remarks;       ///< of the file that it was read from
 };
 
 /// A number that is given, or to be fitted.

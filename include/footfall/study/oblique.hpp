@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "footfall/law/contact_law.hpp"
@@ -112,10 +113,15 @@ struct ObliqueImpact {
 /// sticks, 2 while the ground recovers without force.
 [[nodiscard]] Table oblique_history(std::span<const ObliqueImpact> impacts);
 
+/// A column of oblique_table that can be measured, and its unit there ("degree", "1", "rad/s").
+struct ObliqueObservable {
+    std::string_view name, unit;
+};
+[[nodiscard]] std::span<const ObliqueObservable> oblique_observables();
+
 /// A measured curve: one observable of several impacts.
 struct ObliqueMeasurement {
-    /// A column of oblique_table that is measured after or during the impact: "spin_after".
-    std::string observable;
+    std::string observable;  ///< one of oblique_observables: "spin_after"
     std::vector<Approach> approaches;
     std::vector<double> values;  ///< one for each approach, in the table's unit
 };

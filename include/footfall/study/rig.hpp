@@ -14,6 +14,7 @@
 
 #include "footfall/math/vector.hpp"
 #include "footfall/study/go_on.hpp"
+#include "footfall/study/table.hpp"
 
 namespace footfall {
 
@@ -122,6 +123,7 @@ struct Rig {
     PlanePath dragging;  ///< [m] or [m/s], as `drag` says; unused with a mass
     HeldMass mass;       ///< used where `drag` says so
     GoOn go_on = nullptr;
+    TableRemarks remarks;  ///< of the tables that its paths were read from
 
     [[nodiscard]] double period() const noexcept { return sample_period > 0 ? sample_period : end_time / 1000; }
 };

@@ -21,4 +21,10 @@ struct Table {
     std::vector<Column> columns;
 };
 
+/// What the reader of a table says of it, in whole sentences.
+struct TableRemarks {
+    std::vector<std::string> notes;     ///< which columns were read as what, and what was left out
+    std::vector<std::string> warnings;  ///< what a user may not have meant
+};
+
 }  // namespace footfall

@@ -1,0 +1,305 @@
+// What a table's columns hold.
+#include "io/table_columns.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "footfall/math/error.hpp"
+#include "io/nearest.hpp"
+#include "io/read.hpp"
+
+namespace footfall::io {
+namespace {
+
+/// Names are compared without case; blanks, hyphens, points and underscores are the same.
+std::string normalized(std::string_view name) {
+    std::string made;
+    for (const char c : name) {
+        const bool gap = c == ' ' || c == '-' || c == '.' || c == '_' || c == '\t';
+        if (!gap) made += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+        if (gap && !made.empty() && made.back() != '_') made += '_';
+    }
+    while (made.ends_with('_')) made.pop_back();
+    return made;
+}
+
+/// Single letters are compared as they are: t is a time, T may be a temperature.
+bool is_name(std::string_view name, std::string_view known) {
+    return known.size() == 1 ? name == known : normalized(name) == known;
+}
+
+/// A unit as a table's header writes it; "-" and "1" are none.
+Unit unit_of(std::string_view text) {
+    const bool none = text.empty() || text == "-" || text == "1";
+    return none ? Unit{} : parse_unit(text);
+}
+
+std::optional<Unit> readable_unit(std::string_view text) {
+    try {
+        return unit_of(text);
+    } catch (const InvalidInput&) {
+        return std::nullopt;
+    }
+}
+
+std::vector<std::string_view> parts_of(std::string_view name) {
+    std::vector<std::string_view> parts;
+    for (std::size_t begin = 0;;) {
+        const std::size_t end = std::min(name.find('_', begin), name.size());
+        parts.push_back(name.substr(begin, end - begin));
+        if (end == name.size()) return parts;
+        begin = end + 1;
+    }
+}
+
+/// What words after an underscore may mean: "us"; "rad_s" and "rad_per_s" are rad/s, "N_m" N/m or N m; "s2" is s^2.
+std::vector<std::string> unit_readings(std::span<const std::string_view> words) {
+    std::vector<std::string> units;
+    for (const std::string_view word : words) {
+        std::string unit(word);
+        const bool power = unit.size() > 1 && (unit.back() == '2' || unit.back() == '3');
+        if (power) unit.insert(unit.size() - 1, "^");
+        units.push_back(std::move(unit));
+    }
+    if (units.size() == 1) return units;
+    if (units.size() == 2) return {units[0] + "/" + units[1], units[0] + " " + units[1]};
+    if (units.size() == 3 && units[1] == "per") return {units[0] + "/" + units[2]};
+    return {};
+}
+
+std::string quoted(const Cell& cell) { return fmt::format("'{}'", cell.text); }
+
+}  // namespace
+
+Columns::Columns(TableText& table, std::span<const Sought> sought, const TableInput& input, Problems& problems)
+    : table_(table), sought_(sought) {
+    for (const Cell& cell : table.header) heads_.push_back(head_of(cell.text));
+    // In a long table the column "value" holds what the rows that are picked are called.
+    if (input.where.size() == 1) {
+        for (Head& head : heads_) {
+            const std::string name = normalized(head.name);
+            if (name == "value" || name == "values") head.name = input.where.front().second;
+        }
+    }
+    take_row_of_units();
+    if (!row_units_.empty()) table.rows.erase(table.rows.begin());
+
+    std::vector<std::string> names;
+    for (const Sought& one : sought) names.emplace_back(one.name);
+    for (const auto& [name, column] : input.columns) {
+        const auto place = std::find(names.begin(), names.end(), name);
+        if (place == names.end()) {
+            throw InvalidInput(fmt::format("column {}={}: unknown quantity '{}'{} (there are {})", name, column, name,
+                                           did_you_mean(name, names), listed(names)));
+        }
+        choose(static_cast<std::size_t>(place - names.begin()), column, problems);
+    }
+    for (std::size_t column = 0; column < heads_.size(); ++column) find_by_name(column);
+}
+
+Columns::Head Columns::head_of(std::string_view text) {
+    Head head{std::string(text), "", false};
+    for (const auto& [open, close] : {std::pair{'[', ']'}, {'(', ')'}}) {
+        const std::size_t begin = text.find(open);
+        if (begin == std::string_view::npos) continue;
+        head.name = trimmed(text.substr(0, begin));
+        head.open = !text.ends_with(close);
+        if (!head.open) head.unit = trimmed(text.substr(begin + 1, text.size() - begin - 2));
+        break;
+    }
+    return head;
+}
+
+const std::string& Columns::row_unit(std::size_t column) const {
+    static const std::string none;
+    return column < row_units_.size() ? row_units_[column] : none;
+}
+
+/// A row right below the header in which no cell is a number and one at least is a unit.
+void Columns::take_row_of_units() {
+    if (table_.rows.empty()) return;
+    std::vector<std::string> units;
+    bool any = false;
+    for (const Cell& cell : table_.rows.front()) {
+        std::string_view text = cell.text;
+        const bool brackets = text.size() >= 2 && ((text.front() == '[' && text.back() == ']') ||
+                                                   (text.front() == '(' && text.back() == ')'));
+        if (brackets) text = trimmed(text.substr(1, text.size() - 2));
+        const bool none = text.empty() || text == "-" || text == "1";
+        if (!none && is_number_or_gap(text)) return;
+        any |= brackets || (!none && readable_unit(text));
+        units.emplace_back(text);
+    }
+    if (any) row_units_ = std::move(units);
+}
+
+std::optional<std::size_t> Columns::known(std::string_view name) const {
+    for (std::size_t i = 0; i < sought_.size(); ++i) {
+        const auto is = [name](std::string_view one) { return is_name(name, one); };
+        if (is(sought_[i].name) || std::any_of(sought_[i].names.begin(), sought_[i].names.end(), is)) return i;
+    }
+    return std::nullopt;
+}
+
+bool Columns::has_dimension_of(const Sought& sought, std::string_view unit) const {
+    const auto read = readable_unit(unit);
+    return read && (sought.unit.empty() || read->dimension == parse_unit(sought.unit).dimension);
+}
+
+/// The unit that a name ends with, "us" of "time_us", where it is one of the quantity's dimension.
+std::string Columns::suffix_unit(std::string_view name, const Sought& sought) const {
+    const std::vector<std::string_view> parts = parts_of(name);
+    for (std::size_t length = std::min<std::size_t>(3, parts.size() - 1); length > 0; --length) {
+        for (const std::string& unit : unit_readings(std::span(parts).last(length)))
+            if (has_dimension_of(sought, unit)) return unit;
+    }
+    return "";
+}
+
+void Columns::choose(std::size_t sought, std::string_view text, Problems& problems) {
+    FoundColumn found{.sought = sought};
+    const auto is_text = [&](const Cell& cell) { return cell.text == text; };
+    if (text.starts_with('-') && std::none_of(table_.header.begin(), table_.header.end(), is_text)) {
+        found.sign = -1;
+        text = trimmed(text.substr(1));
+    }
+    const std::optional<std::size_t> column = named(text);
+    if (!column) {
+        problems.add(table_.header.front().at(), fmt::format("{}: {}", sought_[sought].name, no_column(text)));
+        return;
+    }
+    chosen_.push_back(sought);
+    found.column = *column;
+    const Head asked = head_of(text);
+    const std::string& own = heads_[*column].unit.empty() ? row_unit(*column) : heads_[*column].unit;
+    // The whole text may be a name of the header, "force (filtered)", in which case there is no unit to ask for.
+    const bool asks = !asked.unit.empty() && table_.header[*column].text != text;
+    if (asks && !own.empty() && asked.unit != own) {
+        problems.add(table_.header[*column].at(), fmt::format("{} has the unit {}, but {} asks for {}",
+                                                              quoted(table_.header[*column]), own, text, asked.unit));
+        return;
+    }
+    found.unit = asks ? asked.unit : own;
+    if (found.unit.empty()) found.unit = suffix_unit(heads_[*column].name, sought_[sought]);
+    found_.push_back(std::move(found));
+}
+
+void Columns::find_by_name(std::size_t column) {
+    const auto holds = [&](const FoundColumn& one) { return one.column == column; };
+    if (std::any_of(found_.begin(), found_.end(), holds)) return;
+    const auto add = [&](std::size_t sought, std::string unit) {
+        if (std::find(chosen_.begin(), chosen_.end(), sought) != chosen_.end()) return;
+        found_.push_back({.sought = sought, .column = column, .unit = std::move(unit)});
+    };
+    const Head& head = heads_[column];
+    const std::string& unit = head.unit.empty() ? row_unit(column) : head.unit;
+    if (const auto whole = known(head.name)) return add(*whole, unit);
+    // A unit among the words of the name, most often the last: "time_us", "final_omega_rad_s".
+    const std::vector<std::string_view> parts = parts_of(head.name);
+    constexpr std::size_t longest = 3;
+    for (std::size_t length = 1; length <= longest && length < parts.size(); ++length) {
+        for (std::size_t begin = parts.size() - length + 1; begin-- > 0;) {
+            std::vector<std::string_view> rest(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(begin));
+            rest.insert(rest.end(), parts.begin() + static_cast<std::ptrdiff_t>(begin + length), parts.end());
+            const auto sought = known(fmt::format("{}", fmt::join(rest, "_")));
+            if (!sought) continue;
+            for (const std::string& reading : unit_readings(std::span(parts).subspan(begin, length)))
+                if (has_dimension_of(sought_[*sought], reading)) return add(*sought, unit.empty() ? reading : unit);
+        }
+    }
+}
+
+bool Columns::has(std::size_t sought) const {
+    return std::any_of(found_.begin(), found_.end(), [&](const FoundColumn& one) { return one.sought == sought; });
+}
+
+std::vector<FoundColumn> Columns::use(std::span<const std::size_t> used, Problems& problems) const {
+    std::vector<FoundColumn> columns;
+    for (const std::size_t sought : used) {
+        const FoundColumn* first = nullptr;
+        for (const FoundColumn& one : found_) {
+            if (one.sought != sought) continue;
+            const Cell& cell = table_.header[one.column];
+            if (first != nullptr) {
+                const std::string& name = heads_[one.column].name;
+                problems.add(cell.at(), name == heads_[first->column].name
+                                            ? fmt::format("column '{}' is there twice", name)
+                                            : fmt::format("{} and {} are both the {}: choose one with --column {}=NAME",
+                                                          quoted(table_.header[first->column]), quoted(cell),
+                                                          sought_[sought].name, sought_[sought].name));
+                continue;
+            }
+            first = &one;
+            columns.push_back(one);
+            convert(columns.back(), problems);
+        }
+    }
+    return columns;
+}
+
+void Columns::convert(FoundColumn& found, Problems& problems) const {
+    const Cell& cell = table_.header[found.column];
+    const Head& head = heads_[found.column];
+    if (head.open) {
+        problems.add(cell.at(), fmt::format("{}: a unit stands in brackets, as in 'speed [m/s]'", quoted(cell)));
+        return;
+    }
+    const std::string& below = row_unit(found.column);
+    if (!head.unit.empty() && !below.empty() && head.unit != below) {
+        problems.add(cell.at(), fmt::format("{}: the row below says {}; give the unit once", quoted(cell), below));
+        return;
+    }
+    if (found.unit.empty()) return;
+    const Unit wanted = parse_unit(sought_[found.sought].unit);
+    try {
+        const Unit given = unit_of(found.unit);
+        if (given.dimension != wanted.dimension) {
+            throw InvalidInput(
+                fmt::format("expected {}, got {}", describe(wanted.dimension), describe(given.dimension)));
+        }
+        found.scale = {{}, given.factor / wanted.factor, given.exponent - wanted.exponent};
+    } catch (const InvalidInput& error) {
+        const bool said = cell.text.find(found.unit) != std::string_view::npos;
+        problems.add(cell.at(), said ? fmt::format("{}: {}", quoted(cell), error.what())
+                                     : fmt::format("{} [{}]: {}", quoted(cell), found.unit, error.what()));
+    }
+}
+
+std::optional<std::size_t> Columns::named(std::string_view name) const {
+    for (std::size_t column = 0; column < table_.header.size(); ++column)
+        if (table_.header[column].text == name) return column;
+    const std::string wanted = normalized(head_of(name).name);
+    for (std::size_t column = 0; column < heads_.size(); ++column)
+        if (!wanted.empty() && normalized(heads_[column].name) == wanted) return column;
+    return std::nullopt;
+}
+
+std::string Columns::no_column(std::string_view name) const {
+    std::vector<std::string> names;
+    for (const Cell& cell : table_.header) names.emplace_back(cell.text);
+    return fmt::format("no column '{}'{} (columns here: {})", name, did_you_mean(name, names), listed(names));
+}
+
+void Columns::say_what_was_meant(Problems& problems) const {
+    // Short names are near to everything.
+    constexpr std::size_t short_name = 3;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < sought_.size(); ++i) {
+        if (has(i)) continue;
+        names.emplace_back(sought_[i].name);
+        for (const std::string_view other : sought_[i].names)
+            if (other.size() > short_name) names.emplace_back(other);
+    }
+    for (std::size_t column = 0; column < heads_.size(); ++column) {
+        const auto holds = [&](const FoundColumn& one) { return one.column == column; };
+        if (std::any_of(found_.begin(), found_.end(), holds)) continue;
+        const std::string name = normalized(heads_[column].name);
+        const std::string meant = name.size() > short_name ? did_you_mean(name, names) : "";
+        if (meant.empty()) continue;
+        problems.add(table_.header[column].at(), fmt::format("unknown column '{}'{}", heads_[column].name, meant));
+    }
+}
+
+}  // namespace footfall::io

@@ -1,0 +1,246 @@
+// One reader for every table of measurements.
+#include "io/table_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "footfall/math/error.hpp"
+#include "io/nearest.hpp"
+#include "io/read.hpp"
+
+namespace footfall::io {
+namespace {
+
+/// `value` in the sought unit. Powers of ten below one are divided by: 29 um are the double next to 29e-6 then, as
+/// 29 * 1e-6 is not.
+double converted(double value, const FoundColumn& column) {
+    const double scaled = column.sign * value * column.scale.factor;
+    if (column.scale.exponent == 0) return scaled;
+    const double ten = std::pow(10.0, std::abs(column.scale.exponent));
+    return column.scale.exponent < 0 ? scaled / ten : scaled * ten;
+}
+
+/// The first few of a list, and that there are more.
+template <class List>
+std::string first_of(const List& list, std::size_t most = 10) {
+    std::string text;
+    for (std::size_t i = 0; i < list.size() && i < most; ++i) text += fmt::format("{}{}", i == 0 ? "" : ", ", list[i]);
+    if (list.size() > most) text += ", ...";
+    return text;
+}
+
+}  // namespace
+
+TableReader::TableReader(std::string text, std::string name, std::vector<Sought> sought, const TableInput& input,
+                         std::string_view wanted)
+    : text_(std::move(text)),
+      name_(std::move(name)),
+      problems_(name_),
+      sought_(std::move(sought)),
+      input_(input),
+      table_(split_table(text_, name_, wanted)) {
+    columns_ = std::make_unique<Columns>(table_, sought_, input_, problems_);
+    problems_.throw_if_any();
+    pick_rows();
+}
+
+void TableReader::pick_rows() {
+    for (const auto& [column, wanted] : input_.where) {
+        const auto place = columns_->named(column);
+        if (!place) {
+            problems_.add(table_.header.front().at(), columns_->no_column(column));
+            problems_.throw_if_any();
+        }
+        std::vector<std::string> values;
+        std::vector<Cells> picked;
+        for (Cells& row : table_.rows) {
+            if (*place >= row.size()) continue;
+            const std::string value(row[*place].text);
+            if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+            if (value == wanted) picked.push_back(std::move(row));
+        }
+        if (picked.empty()) {
+            problems_.add(table_.header[*place].at(),
+                          fmt::format("no row has '{}' in column '{}'{} (it has {})", wanted, column,
+                                      did_you_mean(wanted, values), first_of(values)));
+            problems_.throw_if_any();
+        }
+        table_.rows = std::move(picked);
+    }
+}
+
+void TableReader::refuse_header(const std::string& message) {
+    columns_->say_what_was_meant(problems_);
+    std::vector<std::string> names;
+    for (const Cell& cell : table_.header) names.push_back(fmt::format("'{}'", cell.text));
+    problems_.add(table_.header.front().at(), fmt::format("{} (columns here: {})", message, first_of(names, 20)));
+    problems_.throw_if_any();
+    std::abort();  // not reached: there is one
+}
+
+/// `allowed` says what the cell should be where it is no number.
+std::optional<double> TableReader::number(const Cell& cell, std::string& allowed) {
+    std::string text(cell.text);
+    if (constexpr std::string_view minus = "\u2212"; text.starts_with(minus)) text.replace(0, minus.size(), "-");
+    const auto commas = std::count(text.begin(), text.end(), ',');
+    const auto points = std::count(text.begin(), text.end(), '.');
+    allowed = "a finite number";
+    if (commas + points > 1) {
+        allowed += ", without separators of thousands";
+        return std::nullopt;
+    }
+    if (commas == 1) text[text.find(',')] = '.';
+    const std::optional<double> value = plain_number(text);
+    if (!value || !std::isfinite(*value)) return std::nullopt;
+    const bool grouped = commas == 1 && text.size() - text.find('.') == 4 && text.find('e') == std::string::npos;
+    if (commas == 1 && !grouped) commas_are_decimal_ = true;
+    int& here = commas == 1 ? decimal_comma_ : decimal_point_;
+    const int other = commas == 1 ? decimal_point_ : decimal_comma_;
+    if (commas + points == 1 && here == 0) here = cell.line;
+    if (commas + points == 1 && other != 0) {
+        allowed = fmt::format("a number with a decimal {}, as in line {}", commas == 1 ? "point" : "comma", other);
+        return std::nullopt;
+    }
+    return value;
+}
+
+std::vector<TableReader::Fault> TableReader::read_row(const Cells& row, std::span<const FoundColumn> columns,
+                                                      std::span<const double> before, const RowCheck& check,
+                                                      std::vector<double>& values) {
+    std::vector<Fault> faults;
+    if (row.size() != table_.header.size()) {
+        const bool comma = table_.separator == Separator::comma && row.size() == 2 * table_.header.size();
+        faults.push_back({row.front().at(),
+                          fmt::format("{} values, where the header has {} columns{}", row.size(), table_.header.size(),
+                                      comma ? "; decimal commas need semicolons between the cells" : "")});
+        return faults;
+    }
+    values.clear();
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const Sought& sought = sought_[columns[i].sought];
+        const Cell& cell = row[columns[i].column];
+        std::string allowed;
+        const auto read = number(cell, allowed);
+        const double value = read ? converted(*read, columns[i]) : 0;
+        if (read && !sought.range.contains(value)) {
+            allowed = sought.range.bounded() ? sought.range.words(std::string(sought.unit)) : "a finite number";
+        } else if (read && !before.empty() && sought.order == Sought::Order::not_falling && value < before[i]) {
+            allowed = "not before the row above";
+        } else if (read && !before.empty() && sought.order == Sought::Order::rising && !(value > before[i])) {
+            allowed = "after the row above";
+        } else if (read) {
+            values.push_back(value);
+            continue;
+        }
+        faults.push_back({cell.at(), fmt::format("{} is '{}'; allowed is {}", sought.name, cell.text, allowed)});
+    }
+    if (!faults.empty() || !check) return faults;
+    if (const auto wrong = check(values)) faults.push_back({row[columns.front().column].at(), *wrong});
+    return faults;
+}
+
+std::vector<std::vector<double>> TableReader::read(std::span<const std::size_t> used, const RowCheck& check) {
+    const std::vector<FoundColumn> columns = columns_->use(used, problems_);
+    if (problems_.empty() && table_.rows.empty()) problems_.add(table_.end, "there are no rows of data");
+    problems_.throw_if_any();
+    note_columns(columns);
+
+    std::vector<std::vector<double>> values(columns.size());
+    std::vector<double> row_values, before;
+    std::vector<int> bad;
+    for (const Cells& row : table_.rows) {
+        const std::vector<Fault> faults = read_row(row, columns, before, check, row_values);
+        if (faults.empty()) {
+            for (std::size_t i = 0; i < columns.size(); ++i) values[i].push_back(row_values[i]);
+            before = row_values;
+            continue;
+        }
+        bad.push_back(row.front().line);
+        for (const Fault& fault : faults) problems_.add(fault.at, fault.message);
+    }
+    if (!bad.empty() && (!input_.skip_bad_rows || bad.size() == table_.rows.size())) {
+        try {
+            problems_.throw_if_any();
+        } catch (const ScenarioError& error) {
+            if (bad.size() == table_.rows.size()) throw;  // nothing would be left
+            throw BadRows(error);
+        }
+    }
+    note_left_out(bad, table_.rows.size());
+    warn_of_numbers(columns, values);
+    return values;
+}
+
+bool TableReader::picked_by(std::size_t column) const {
+    return std::any_of(input_.where.begin(), input_.where.end(),
+                       [&](const auto& where) { return columns_->named(where.first) == column; });
+}
+
+/// " (3 values: a, b, c; --where series=VALUE picks one)" of a column of words that come again and again.
+std::string TableReader::values_of(std::size_t column) const {
+    constexpr std::size_t most = 10;
+    std::vector<std::string> values;
+    for (const Cells& row : table_.rows) {
+        if (column >= row.size() || is_number_or_gap(row[column].text) || values.size() > most) return "";
+        const std::string value(row[column].text);
+        if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+    }
+    if (values.size() < 2 || values.size() > most || 2 * values.size() > table_.rows.size()) return "";
+    return fmt::format(" ({} values: {}; --where {}=VALUE picks one)", values.size(), listed(values),
+                       table_.header[column].text);
+}
+
+void TableReader::note_columns(std::span<const FoundColumn> columns) {
+    std::string renamed;
+    std::vector<std::string> unused;
+    for (std::size_t column = 0; column < table_.header.size(); ++column) {
+        const auto holds = [&](const FoundColumn& one) { return one.column == column; };
+        const auto found = std::find_if(columns.begin(), columns.end(), holds);
+        const std::string text(table_.header[column].text);
+        if (found == columns.end()) {
+            if (!text.empty() && !picked_by(column)) unused.push_back(text + values_of(column));
+            continue;
+        }
+        const Sought& sought = sought_[found->sought];
+        // A name of its own, with its unit in brackets, says it all.
+        if (text.starts_with(sought.name) && (text.size() == sought.name.size() || text.ends_with(']'))) continue;
+        const std::string_view unit = found->unit.empty() ? sought.unit : std::string_view(found->unit);
+        renamed += fmt::format("{}{}{} from '{}'", renamed.empty() ? "" : ", ", sought.name,
+                               unit == "1" || unit == "-" ? "" : fmt::format(" in {}", unit), text);
+    }
+    if (!renamed.empty()) remarks_.notes.push_back(fmt::format("Read: {}.", renamed));
+    if (!unused.empty()) remarks_.notes.push_back(fmt::format("Columns that are not used: {}.", first_of(unused, 20)));
+}
+
+void TableReader::note_left_out(const std::vector<int>& lines, std::size_t rows) {
+    if (lines.empty()) return;
+    remarks_.notes.push_back(fmt::format("{} of {} rows could not be used and were left out: line{} {}.", lines.size(),
+                                         rows, lines.size() == 1 ? "" : "s", first_of(lines)));
+}
+
+void TableReader::warn_of_numbers(std::span<const FoundColumn> columns,
+                                  const std::vector<std::vector<double>>& values) {
+    if (decimal_comma_ != 0) remarks_.notes.emplace_back("Decimal commas.");
+    if (decimal_comma_ != 0 && !commas_are_decimal_) {
+        remarks_.warnings.push_back(fmt::format(
+            "{}: every comma in a number has three digits behind it; they are read as decimal commas, 1,200 as 1.2; if "
+            "they separate thousands, remove them",
+            name_));
+    }
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const Sought& sought = sought_[columns[i].sought];
+        double largest = 0;
+        for (const double value : values[i]) largest = std::max(largest, std::abs(value));
+        if (!columns[i].unit.empty() || !(largest > sought.plausible)) continue;
+        remarks_.warnings.push_back(fmt::format(
+            "{}: column '{}' has no unit, so it was read in {}, and goes to {:.4g} {}; if that is not meant, write its "
+            "unit into the header: '{} [{}]'",
+            name_, table_.header[columns[i].column].text, sought.unit, largest, sought.unit, sought.name,
+            sought.unit == "m/s" ? "mm/s" : fmt::format("m{}", sought.unit)));
+    }
+}
+
+}  // namespace footfall::io
