@@ -25,10 +25,19 @@ std::string normalized(std::string_view name) {
     return made;
 }
 
-/// Single letters are compared as they are: t is a time, T may be a temperature.
-bool is_name(std::string_view name, std::string_view known) {
-    return known.size() == 1 ? name == known : normalized(name) == known;
-}
+/// A name of a quantity as the header has it. Single letters are compared as they are: t is a time, T may be a
+/// temperature.
+class Word {
+public:
+    explicit Word(std::string_view name) : name_(name), normalized_(normalized(name)) {}
+    [[nodiscard]] bool is(std::string_view known) const {
+        return known.size() == 1 ? name_ == known : normalized_ == known;
+    }
+
+private:
+    std::string_view name_;
+    std::string normalized_;
+};
 
 /// A unit as a table's header writes it; "-" and "1" are none.
 Unit unit_of(std::string_view text) {
@@ -104,7 +113,7 @@ Columns::Head Columns::head_of(std::string_view text) {
     for (const auto& [open, close] : {std::pair{'[', ']'}, {'(', ')'}}) {
         const std::size_t begin = text.find(open);
         if (begin == std::string_view::npos) continue;
-        head.name = trimmed(text.substr(0, begin));
+        head.name = trimmed(text.substr(0, begin), " \t/");  // "v / (m/s)"
         head.open = !text.ends_with(close);
         if (!head.open) head.unit = trimmed(text.substr(begin + 1, text.size() - begin - 2));
         break;
@@ -136,8 +145,9 @@ void Columns::take_row_of_units() {
 }
 
 std::optional<std::size_t> Columns::known(std::string_view name) const {
+    const Word word(name);
     for (std::size_t i = 0; i < sought_.size(); ++i) {
-        const auto is = [name](std::string_view one) { return is_name(name, one); };
+        const auto is = [&word](std::string_view one) { return word.is(one); };
         if (is(sought_[i].name) || std::any_of(sought_[i].names.begin(), sought_[i].names.end(), is)) return i;
     }
     return std::nullopt;
@@ -196,6 +206,14 @@ void Columns::find_by_name(std::size_t column) {
     const Head& head = heads_[column];
     const std::string& unit = head.unit.empty() ? row_unit(column) : head.unit;
     if (const auto whole = known(head.name)) return add(*whole, unit);
+    // "F / N", "speed in mm/s".
+    for (const std::string_view between : {"/", " in "}) {
+        const std::size_t place = head.name.find(between);
+        if (place == std::string::npos || !unit.empty()) continue;
+        const std::string_view name = head.name;
+        const std::string_view rest = trimmed(name.substr(place + between.size()));
+        if (const auto sought = known(trimmed(name.substr(0, place)))) return add(*sought, std::string(rest));
+    }
     // A unit among the words of the name, most often the last: "time_us", "final_omega_rad_s".
     const std::vector<std::string_view> parts = parts_of(head.name);
     constexpr std::size_t longest = 3;

@@ -201,13 +201,13 @@ private:
     std::deque<std::string>& unquoted_;
 };
 
-/// Spreadsheets end every line with separators where one line was longer.
-void drop_empty_ends(Cells& header, std::vector<Cells>& rows) {
-    while (header.size() > 1 && header.back().text.empty()) {
-        header.pop_back();
-        for (Cells& row : rows)
-            if (row.size() == header.size() + 1 && row.back().text.empty()) row.pop_back();
-    }
+/// Spreadsheets end lines with separators where one line was longer.
+void drop_empty_end(Cells& cells, std::size_t width) {
+    while (cells.size() > width && cells.back().text.empty()) cells.pop_back();
+}
+
+bool is_empty(const Cells& cells) {
+    return std::all_of(cells.begin(), cells.end(), [](const Cell& cell) { return cell.text.empty(); });
 }
 
 /// Finds what separates the cells: what splits the header into two or more, and the rows that are looked at into as
@@ -222,9 +222,15 @@ public:
         Separator best = Separator::none;
         std::size_t best_count = 0;
         for (const Separator separator : separators) {
-            const std::size_t width = splitter_.split(lines_.front(), separator).size();
+            Cells header = splitter_.split(lines_.front(), separator);
+            drop_empty_end(header, 1);
+            const std::size_t width = header.size();
             if (width < 2) continue;
-            const auto fits = [&](const Line& line) { return splitter_.split(line, separator).size() == width; };
+            const auto fits = [&](const Line& line) {
+                Cells row = splitter_.split(line, separator);
+                drop_empty_end(row, width);
+                return row.size() == width;
+            };
             const auto first = lines_.begin() + 1;
             const auto count =
                 static_cast<std::size_t>(std::count_if(first, first + static_cast<std::ptrdiff_t>(rows), fits));
@@ -304,9 +310,13 @@ TableText split_table(std::string_view text, const std::string& name, std::strin
     Splitter splitter(table.unquoted);
     table.separator = Detector(all.lines, splitter).find(name);
     table.header = splitter.split(all.lines.front(), table.separator);
-    for (std::size_t i = 1; i < all.lines.size(); ++i)
-        table.rows.push_back(splitter.split(all.lines[i], table.separator));
-    drop_empty_ends(table.header, table.rows);
+    drop_empty_end(table.header, 1);
+    for (std::size_t i = 1; i < all.lines.size(); ++i) {
+        Cells row = splitter.split(all.lines[i], table.separator);
+        drop_empty_end(row, table.header.size());
+        if (row.size() > 1 && is_empty(row)) continue;  // nothing but separators
+        table.rows.push_back(std::move(row));
+    }
 
     const auto number = [](const Cell& cell) { return is_number_or_gap(cell.text); };
     if (std::all_of(table.header.begin(), table.header.end(), number)) {

@@ -53,6 +53,8 @@ TEST(TableReader, FindsTheSeparator) {
     expect_curve("sep=;\nspeed;restitution\n0.1;0.779\n1.25;0.66\n");
     // Spreadsheets end lines with separators.
     expect_curve("speed,restitution,,\n0.1,0.779,,\n1.25,0.66,,\n");
+    expect_curve("speed;restitution\n0.1;0.779;\n1.25;0.66;\n;\n");
+    expect_curve("speed\t\trestitution\n0.1\t0.779\n1.25\t0.66\n");
 }
 
 TEST(TableReader, TakesDecimalCommas) {
@@ -86,6 +88,8 @@ TEST(TableReader, PassesOverWhatIsAroundTheTable) {
 TEST(TableReader, TakesUnitsInEveryPlace) {
     expect_curve("speed [mm/s],restitution [%]\n100,77.9\n1250,66\n");
     expect_curve("speed (mm/s),restitution (-)\n100,0.779\n1250,0.66\n");
+    expect_curve("speed / (mm/s),restitution\n100,0.779\n1250,0.66\n");
+    expect_curve("v in mm/s,e/%\n100,77.9\n1250,66\n");
     expect_curve("speed_mm_s,restitution\n100,0.779\n1250,0.66\n");
     expect_curve("speed_mm_per_s,restitution\n100,0.779\n1250,0.66\n");
     expect_curve("speed,restitution\nmm/s,%\n100,77.9\n1250,66\n");
