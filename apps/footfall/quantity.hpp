@@ -10,10 +10,7 @@ namespace footfall::cli {
 
 /// The SI value of what was given for `option`; `unit` is its SI unit. Throws InvalidInput, naming the option.
 [[nodiscard]] inline double quantity(std::string_view option, std::string_view text, std::string_view unit) {
-    return in_context(option, [&] {
-        const Quantity read = parse_quantity(text);
-        return read.dimension == Dimension{} ? read.value : to_si(text, unit);
-    });
+    return in_context(option, [&] { return plain_or_si(text, unit); });
 }
 
 }  // namespace footfall::cli

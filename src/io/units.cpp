@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -22,20 +23,24 @@ struct Symbol {
     std::string_view name;
     Unit unit;
     bool takes_prefix;
+    std::string_view usual_prefixes = "";  ///< those that are suggested, a letter each
 };
 
 // Sources: the SI brochure (9th edition), tables 2, 4, 7 and 8; the international yard and pound agreement (1959) for
-// in, ft and lb, with standard gravity for lbf.
+// in, ft, yd, mi, lb and oz = lb/16; NIST SP 811 (2008), appendix B.8, for standard gravity gn = 9.80665 m/s^2 exactly,
+// hence kgf, lbf = lb gn and psi = lbf/in^2, and for the nautical mile of 1852 m in the knot. kn and kt are not known:
+// they read as kN and kilotonne.
 constexpr std::array symbols{
-    Symbol{"m", {{0, 1, 0, 0}}, true},
-    Symbol{"g", {{1, 0, 0, 0}, 1, -3}, true},
-    Symbol{"s", {{0, 0, 1, 0}}, true},
-    Symbol{"N", {{1, 1, -2, 0}}, true},
-    Symbol{"Pa", {{1, -1, -2, 0}}, true},
-    Symbol{"J", {{1, 2, -2, 0}}, true},
-    Symbol{"W", {{1, 2, -3, 0}}, true},
-    Symbol{"Hz", {{0, 0, -1, 0}}, true},
-    Symbol{"rad", {{0, 0, 0, 1}}, true},
+    Symbol{"m", {{0, 1, 0, 0}}, true, "mcukn"},
+    Symbol{"g", {{1, 0, 0, 0}, 1, -3}, true, "km"},
+    Symbol{"s", {{0, 0, 1, 0}}, true, "mun"},
+    Symbol{"sec", {{0, 0, 1, 0}}, true, "mu"},
+    Symbol{"N", {{1, 1, -2, 0}}, true, "kmM"},
+    Symbol{"Pa", {{1, -1, -2, 0}}, true, "kMG"},
+    Symbol{"J", {{1, 2, -2, 0}}, true, "mk"},
+    Symbol{"W", {{1, 2, -3, 0}}, true, "mk"},
+    Symbol{"Hz", {{0, 0, -1, 0}}, true, "kM"},
+    Symbol{"rad", {{0, 0, 0, 1}}, true, "m"},
     Symbol{"deg", {{0, 0, 0, 1}, pi / 180}, false},
     Symbol{"\u00b0", {{0, 0, 0, 1}, pi / 180}, false},
     Symbol{"rev", {{0, 0, 0, 1}, 2 * pi}, false},
@@ -43,11 +48,21 @@ constexpr std::array symbols{
     Symbol{"min", {{0, 0, 1, 0}, 60}, false},
     Symbol{"h", {{0, 0, 1, 0}, 3600}, false},
     Symbol{"t", {{1, 0, 0, 0}, 1, 3}, false},
-    Symbol{"bar", {{1, -1, -2, 0}, 1, 5}, true},
+    Symbol{"bar", {{1, -1, -2, 0}, 1, 5}, true, "m"},
+    Symbol{"micron", {{0, 1, 0, 0}, 1, -6}, false},
     Symbol{"in", {{0, 1, 0, 0}, 254, -4}, false},
     Symbol{"ft", {{0, 1, 0, 0}, 3048, -4}, false},
+    Symbol{"yd", {{0, 1, 0, 0}, 9144, -4}, false},
+    Symbol{"mi", {{0, 1, 0, 0}, 1609344, -3}, false},
     Symbol{"lb", {{1, 0, 0, 0}, 45359237, -8}, false},
-    Symbol{"lbf", {{1, 1, -2, 0}, 4.4482216152605}, false},
+    Symbol{"oz", {{1, 0, 0, 0}, 28349523125, -12}, false},
+    Symbol{"kgf", {{1, 1, -2, 0}, 980665, -5}, false},
+    Symbol{"lbf", {{1, 1, -2, 0}, 44482216152605, -13}, false},
+    Symbol{"psi", {{1, -1, -2, 0}, 6894.7572931683613}, false},
+    Symbol{"ksi", {{1, -1, -2, 0}, 6894.7572931683613, 3}, false},
+    Symbol{"mph", {{0, 1, -1, 0}, 44704, -5}, false},
+    Symbol{"knot", {{0, 1, -1, 0}, 1852.0 / 3600}, false},
+    Symbol{"gn", {{0, 1, -2, 0}, 980665, -5}, false},
     Symbol{"%", {{}, 1, -2}, false},
 };
 
@@ -61,32 +76,76 @@ constexpr std::array prefixes{Prefix{"da", 1}, Prefix{"h", 2},       Prefix{"k",
                               Prefix{"m", -3}, Prefix{"\u00b5", -6}, Prefix{"\u03bc", -6}, Prefix{"u", -6},
                               Prefix{"n", -9}, Prefix{"p", -12}};
 
-std::optional<Unit> find_symbol(std::string_view name) {
+/// A unit written out, with its plural; it means what the symbol means.
+struct Word {
+    std::string_view one, many;
+    std::string_view symbol;
+};
+
+constexpr std::array words{
+    Word{"metre", "metres", "m"},        Word{"meter", "meters", "m"},     Word{"gram", "grams", "g"},
+    Word{"second", "seconds", "s"},      Word{"newton", "newtons", "N"},   Word{"pascal", "pascals", "Pa"},
+    Word{"joule", "joules", "J"},        Word{"watt", "watts", "W"},       Word{"hertz", "hertz", "Hz"},
+    Word{"radian", "radians", "rad"},    Word{"degree", "degrees", "deg"}, Word{"revolution", "revolutions", "rev"},
+    Word{"minute", "minutes", "min"},    Word{"hour", "hours", "h"},       Word{"tonne", "tonnes", "t"},
+    Word{"micron", "microns", "micron"}, Word{"inch", "inches", "in"},     Word{"foot", "feet", "ft"},
+    Word{"yard", "yards", "yd"},         Word{"mile", "miles", "mi"},      Word{"pound", "pounds", "lb"},
+    Word{"ounce", "ounces", "oz"},       Word{"knot", "knots", "knot"},    Word{"percent", "percent", "%"},
+};
+
+/// What goes before a word whose symbol takes prefixes.
+constexpr std::array word_prefixes{Prefix{"", 0},       Prefix{"kilo", 3},   Prefix{"mega", 6},   Prefix{"giga", 9},
+                                   Prefix{"tera", 12},  Prefix{"hecto", 2},  Prefix{"deca", 1},   Prefix{"deci", -1},
+                                   Prefix{"centi", -2}, Prefix{"milli", -3}, Prefix{"micro", -6}, Prefix{"nano", -9},
+                                   Prefix{"pico", -12}};
+
+const Symbol* symbol_named(std::string_view name) {
     for (const Symbol& symbol : symbols) {
-        if (symbol.name == name) return symbol.unit;
+        if (symbol.name == name) return &symbol;
     }
+    return nullptr;
+}
+
+Unit prefixed(const Symbol& symbol, const Prefix& prefix) {
+    Unit unit = symbol.unit;
+    unit.exponent += prefix.exponent;
+    return unit;
+}
+
+std::optional<Unit> find_symbol(std::string_view name) {
+    if (const Symbol* symbol = symbol_named(name)) return symbol->unit;
     for (const Prefix& prefix : prefixes) {
         if (!name.starts_with(prefix.name)) continue;
-        for (const Symbol& symbol : symbols) {
-            if (!symbol.takes_prefix || symbol.name != name.substr(prefix.name.size())) continue;
-            Unit unit = symbol.unit;
-            unit.exponent += prefix.exponent;
-            return unit;
+        const Symbol* symbol = symbol_named(name.substr(prefix.name.size()));
+        if (symbol && symbol->takes_prefix) return prefixed(*symbol, prefix);
+    }
+    for (const Prefix& prefix : word_prefixes) {
+        if (!name.starts_with(prefix.name)) continue;
+        const std::string_view rest = name.substr(prefix.name.size());
+        for (const Word& word : words) {
+            if (rest != word.one && rest != word.many) continue;
+            const Symbol& symbol = *symbol_named(word.symbol);
+            if (prefix.name.empty() || symbol.takes_prefix) return prefixed(symbol, prefix);
         }
     }
     return std::nullopt;
 }
 
-/// The symbols, and those with the prefixes that people use, for suggestions.
-std::vector<std::string> suggestions() {
-    std::vector<std::string> words;
-    for (const Symbol& symbol : symbols) words.emplace_back(symbol.name);
-    for (const Prefix& prefix : prefixes) {
-        for (const Symbol& symbol : symbols) {
-            if (symbol.takes_prefix) words.push_back(std::string(prefix.name) + std::string(symbol.name));
+/// What may be suggested: the units that people use, in symbols and in words.
+std::vector<std::string> usual_units() {
+    std::vector<std::string> usual;
+    for (const Symbol& symbol : symbols) {
+        usual.emplace_back(symbol.name);
+        for (const char prefix : symbol.usual_prefixes) usual.push_back(prefix + std::string(symbol.name));
+    }
+    for (const Prefix& prefix : word_prefixes) {
+        for (const Word& word : words) {
+            if (!prefix.name.empty() && !symbol_named(word.symbol)->takes_prefix) continue;
+            for (const std::string_view name : {word.one, word.many})
+                usual.push_back(std::string(prefix.name) + std::string(name));
         }
     }
-    return words;
+    return usual;
 }
 
 Unit product(const Unit& a, const Unit& b, double sign) {
@@ -110,12 +169,20 @@ bool is_symbol_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%' || static_cast<unsigned char>(c) >= 0x80;
 }
 
+/// The unit that a quantity should be in a multiple of.
+struct Wanted {
+    Dimension dimension;
+    std::string_view unit;
+};
+
 // unit     = [ factor ] { ( "*" | "·" | space ) factor | "/" factor }
 // factor   = ( symbol | "1" | "(" unit ")" ) [ "²" | "³" | ( "^" | "**" ) power ]
 // power    = number | "(" number [ "/" number ] ")"
 class UnitReader {
 public:
-    explicit UnitReader(std::string_view text) : text_(text), rest_(text) {}
+    /// `wanted` is the dimension that the unit should have, where that is known: suggestions keep to it.
+    explicit UnitReader(std::string_view text, const Wanted* wanted = nullptr)
+        : text_(text), rest_(text), wanted_(wanted) {}
 
     Unit read() {
         const Unit unit = read_product();
@@ -170,11 +237,42 @@ private:
                                  : fmt::format("a unit should stand at '{}'", rest_));
         const std::optional<Unit> unit = find_symbol(name);
         if (!unit) {
-            const std::string hint = io::did_you_mean(name, suggestions());
-            refuse(fmt::format("unknown unit '{}'{} (units: {}, with SI prefixes)", name, hint, known_units()));
+            const std::string hint = io::did_you_mean(name, candidates(name));
+            refuse(fmt::format("unknown unit '{}'{} ({})", name, hint, allowed()));
         }
         rest_.remove_prefix(length);
         return *unit;
+    }
+
+    /// The usual units that can stand here in place of `name`.
+    [[nodiscard]] std::vector<std::string> candidates(std::string_view name) const {
+        std::vector<std::string> usual = usual_units();
+        if (!wanted_) return usual;
+        const std::string before(text_.substr(0, text_.size() - rest_.size()));
+        const std::string after(rest_.substr(name.size()));
+        std::vector<std::string> fitting;
+        for (const std::string& unit : usual) {
+            try {
+                if (parse_unit(before + unit + after).dimension == wanted_->dimension) fitting.push_back(unit);
+            } catch (const InvalidInput&) {
+                return usual;  // something else is wrong as well: what would fit is not known
+            }
+        }
+        return fitting;
+    }
+
+    /// "for a mass (kg): g, t, lb, oz", or all units where the wanted one has no symbol of its own.
+    [[nodiscard]] std::string allowed() const {
+        std::vector<std::string> names;
+        bool prefixes_too = false;
+        for (const Symbol& symbol : symbols) {
+            if (!wanted_ || symbol.unit.dimension != wanted_->dimension) continue;
+            names.emplace_back(symbol.name);
+            prefixes_too = prefixes_too || symbol.takes_prefix;
+        }
+        if (names.empty()) return fmt::format("units: {}, with SI prefixes", known_units());
+        return fmt::format("for {}: {}{}", describe(wanted_->dimension), io::listed(names),
+                           prefixes_too ? ", with SI prefixes" : "");
     }
 
     static bool ends_symbol(std::string_view text) {
@@ -227,6 +325,7 @@ private:
 
     std::string_view text_;
     std::string_view rest_;
+    const Wanted* wanted_;
     int nesting_ = 0;
 };
 
@@ -272,6 +371,24 @@ Decimal read_decimal(std::string_view text) {
     return decimal;
 }
 
+/// The digits of a decimal number times a whole number, exactly.
+std::string times(const std::string& digits, std::uint64_t factor) {
+    std::string product;  // backwards
+    std::uint64_t carry = 0;
+    for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit) {
+        if (is_digit(*digit)) {
+            carry += static_cast<std::uint64_t>(*digit - '0') * factor;
+            product += static_cast<char>('0' + carry % 10);
+            carry /= 10;
+        } else if (*digit == '.') {
+            product += '.';
+        }
+    }
+    for (; carry > 0; carry /= 10) product += static_cast<char>('0' + carry % 10);
+    if (digits.starts_with('-')) product += '-';
+    return {product.rbegin(), product.rend()};
+}
+
 struct NamedDimension {
     std::string_view unit;
     std::string_view name;
@@ -300,6 +417,36 @@ constexpr std::array names{
     NamedDimension{"N s/m^2.5", "a damping per area and root of depth"},
 };
 
+Quantity read_quantity(std::string_view text, const Wanted* wanted) {
+    const std::string_view trim = trimmed(text);
+    const Decimal number = read_decimal(trim);
+    if (number.length == 0) {
+        const std::string_view unit = wanted ? wanted->unit : "cm";
+        throw InvalidInput(unit == "1" ? fmt::format("'{}' is not a number", text)
+                                       : fmt::format("'{}' does not start with a number: write a number and its unit, "
+                                                     "as in \"1.65 {}\"",
+                                                     text, unit));
+    }
+    const Unit unit = UnitReader(trimmed(trim.substr(number.length)), wanted).read();
+    const double whole = std::round(unit.exponent);
+    const bool exact = std::abs(unit.exponent - whole) < 1e-9;
+    const double exponent = number.exponent + (exact ? whole : 0);
+    constexpr double most = 9007199254740992;  // 2^53: whole numbers up to here are exact in a double
+    const bool decimal_factor = unit.factor == std::floor(unit.factor) && unit.factor <= most;
+
+    double value = 0;
+    const std::string decimal = fmt::format(
+        "{}e{:.0f}", decimal_factor ? times(number.digits, static_cast<std::uint64_t>(unit.factor)) : number.digits,
+        exponent);
+    const auto parsed = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
+    if (!decimal_factor) value *= unit.factor;
+    if (!exact) value *= std::pow(10.0, unit.exponent);
+    if (parsed.ec != std::errc{} || !std::isfinite(value)) {
+        throw InvalidInput(fmt::format("'{}' is outside the range of a double", text));
+    }
+    return {value, unit.dimension};
+}
+
 }  // namespace
 
 bool Dimension::operator==(const Dimension& other) const noexcept {
@@ -310,40 +457,27 @@ bool Dimension::operator==(const Dimension& other) const noexcept {
 
 Unit parse_unit(std::string_view text) { return UnitReader(trimmed(text)).read(); }
 
-Quantity parse_quantity(std::string_view text) {
-    const std::string_view trim = trimmed(text);
-    const Decimal number = read_decimal(trim);
-    if (number.length == 0) {
-        throw InvalidInput(
-            fmt::format("'{}' does not start with a number: write a number and its unit, as in "
-                        "\"1.65 cm\"",
-                        text));
-    }
-    const Unit unit = parse_unit(trim.substr(number.length));
-    const double whole = std::round(unit.exponent);
-    const bool exact = std::abs(unit.exponent - whole) < 1e-9;
-    const double exponent = number.exponent + (exact ? whole : 0);
-
-    double value = 0;
-    const std::string decimal = fmt::format("{}e{:.0f}", number.digits, exponent);
-    const auto parsed = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
-    value *= unit.factor;
-    if (!exact) value *= std::pow(10.0, unit.exponent);
-    if (parsed.ec != std::errc{} || !std::isfinite(value)) {
-        throw InvalidInput(fmt::format("'{}' is outside the range of a double", text));
-    }
-    return {value, unit.dimension};
-}
+Quantity parse_quantity(std::string_view text) { return read_quantity(text, nullptr); }
 
 double to_si(std::string_view quantity, std::string_view si_unit) {
-    const Quantity read = parse_quantity(quantity);
-    const Dimension wanted = parse_unit(si_unit).dimension;
+    const Wanted expected{parse_unit(si_unit).dimension, si_unit};
+    const Dimension& wanted = expected.dimension;
+    const Quantity read = read_quantity(quantity, &expected);
     if (read.dimension == wanted) return read.value;
     if (read.dimension == Dimension{}) {
         throw InvalidInput(fmt::format("expected {}, got '{}' without a unit (a number without quotes is in {})",
                                        describe(wanted), quantity, si_unit));
     }
-    throw InvalidInput(fmt::format("expected {}, got {}: '{}'", describe(wanted), describe(read.dimension), quantity));
+    const bool meant_gravity =
+        wanted == symbol_named("gn")->unit.dimension && read.dimension == symbol_named("g")->unit.dimension;
+    throw InvalidInput(fmt::format("expected {}, got {}: '{}'{}", describe(wanted), describe(read.dimension), quantity,
+                                   meant_gravity ? "; 'g' is the gram, standard gravity is 'gn'" : ""));
+}
+
+double plain_or_si(std::string_view text, std::string_view si_unit) {
+    const std::string_view trim = trimmed(text);
+    const bool plain = !trim.empty() && read_decimal(trim).length == trim.size();
+    return plain ? parse_quantity(trim).value : to_si(text, si_unit);
 }
 
 std::string describe(const Dimension& dimension) {
@@ -365,9 +499,9 @@ std::string describe(const Dimension& dimension) {
 }
 
 std::string known_units() {
-    std::vector<std::string> words;
-    for (const Symbol& symbol : symbols) words.emplace_back(symbol.name);
-    return io::listed(words);
+    std::vector<std::string> all;
+    for (const Symbol& symbol : symbols) all.emplace_back(symbol.name);
+    return io::listed(all);
 }
 
 }  // namespace footfall

@@ -1,7 +1,12 @@
 #include "footfall/io/units.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -57,6 +62,32 @@ TEST(Units, ConvertsDecimalMultiplesExactly) {
         {"  2   m ", "m", 2},
         {"4 hm", "m", 400},
         {"4 dam", "m", 40},
+        {"0.1 in", "m", 0.00254},
+        {"-1.1 ft", "m", -0.33528},
+        {"3.3 yd", "m", 3.01752},
+        {"26.2 mi", "m", 42164.8128},
+        {"0.3 lb", "kg", 0.136077711},
+        {"5 oz", "kg", 0.141747615625},
+        {"1.1 min", "s", 66},
+        {"0.7 h", "s", 2520},
+        {"0.1 lbf", "N", 0.44482216152605},
+        {"3 kgf", "N", 29.41995},
+        {"0.9 gn", "m/s^2", 8.825985},
+        {"30 mph", "m/s", 13.4112},
+        {"7 micron", "m", 7e-6},
+        {"7 microns", "m", 7e-6},
+        {"300 grams", "kg", 0.3},
+        {"5 millimetres", "m", 0.005},
+        {"5 centimeters", "m", 0.05},
+        {"0.3 milliseconds", "s", 3e-4},
+        {"0.3 msec", "s", 3e-4},
+        {"2 kilonewtons", "N", 2000},
+        {"2 meters/second^2", "m/s^2", 2},
+        {"0.1 kilogram", "kg", 0.1},
+        {"1 inch", "m", 0.0254},
+        {"2 feet", "m", 0.6096},
+        {"2 pounds", "kg", 0.90718474},
+        {"20 percent", "1", 0.2},
     };
     for (const Conversion& c : table) EXPECT_EQ(to_si(c.quantity, c.unit), c.value) << c.quantity;
 }
@@ -72,7 +103,10 @@ TEST(Units, ConvertsOtherMultiples) {
         {"90 min", "s", 5400},
         {"3 ft", "m", 0.9144},
         {"1 lb", "kg", 0.45359237},
-        {"1 lbf", "N", 4.4482216152605},
+        {"1 psi", "Pa", 6894.757293168361},  // NIST SP 811, B.8: 6.894 757 E+03
+        {"10 ksi", "Pa", 68947572.93168361},
+        {"36 knots", "m/s", 18.52},
+        {"90 degrees", "rad", 1.5707963267948966},
         {"1 N/mm^1.5", "N/m^1.5", 31622.776601683793},  // 10^4.5
         {"1 N/cm^(3/2)", "N/m^1.5", 1000},              // 10^3
         {"1 m^(1/2) m", "m^1.5", 1},
@@ -105,6 +139,57 @@ TEST(Units, SuggestsTheNearestUnit) {
     EXPECT_NE(error_of("3 Kg", "kg").find("unknown unit 'Kg': did you mean 'kg'?"), std::string::npos);
     EXPECT_NE(error_of("3 dg/s", "rad").find("expected an angle (rad), got"), std::string::npos);
     EXPECT_NE(error_of("3 degs", "rad").find("did you mean 'deg'?"), std::string::npos);
+}
+
+TEST(Units, SuggestsOnlyWhatHasTheExpectedDimension) {
+    // A prefix before every unit would make of these "Grad", "min" or "kg".
+    EXPECT_EQ(error_of("5 gram", "m"), "expected a length (m), got a mass (kg): '5 gram'");
+    EXPECT_NE(error_of("5 gramm", "kg").find("'gramm': did you mean 'gram'?"), std::string::npos);
+    EXPECT_NE(error_of("5 micrn", "m").find("'micrn': did you mean 'micron'?"), std::string::npos);
+    EXPECT_NE(error_of("5 mm/sk", "m/s").find("'sk': did you mean 's'?"), std::string::npos);
+    for (const auto& [quantity, unit] : std::vector<std::pair<std::string, std::string>>{
+             {"5 gramm", "m"}, {"5 bra", "kg"}, {"5 mim", "Pa"}, {"5 kgg", "s"}, {"5 Ns", "N"}}) {
+        const std::string error = error_of(quantity, unit);
+        const std::size_t found = error.find("did you mean '");
+        if (found == std::string::npos) continue;
+        const std::string meant = error.substr(found + 14, error.find('\'', found + 14) - found - 14);
+        EXPECT_EQ(parse_unit(meant).dimension, parse_unit(unit).dimension) << error;
+    }
+}
+
+TEST(Units, ListsTheUnitsOfTheExpectedDimension) {
+    EXPECT_NE(error_of("5 kn", "m/s").find("(for a velocity (m/s): mph, knot)"), std::string::npos);
+    EXPECT_NE(error_of("5 xyz", "N/m^1.5").find("(units: m, g, s, "), std::string::npos);
+}
+
+TEST(Units, WordsStandAlone) {
+    for (const char* bad : {"1 kmetre", "1 millim", "1 kilo", "1 kiloinch", "1 kilofeet", "1 metress", "1 mpsi"})
+        EXPECT_THROW((void)parse_quantity(bad), InvalidInput) << bad;
+}
+
+TEST(Units, TellsTheGramFromStandardGravity) {
+    EXPECT_EQ(error_of("2 g", "m/s^2"),
+              "expected an acceleration (m/s^2), got a mass (kg): '2 g'; 'g' is the gram, standard gravity is 'gn'");
+}
+
+TEST(Units, ANumberWithoutAUnitIsInSiUnitsOnACommandLine) {
+    EXPECT_EQ(plain_or_si(" 0.25 ", "m"), 0.25);
+    EXPECT_EQ(plain_or_si("25cm", "m"), 0.25);
+    EXPECT_THROW((void)plain_or_si("20 %", "m"), InvalidInput);
+    EXPECT_THROW((void)plain_or_si("", "m"), InvalidInput);
+    EXPECT_THROW((void)plain_or_si("nan", "1"), InvalidInput);
+}
+
+TEST(Units, TheDocumentedListIsTheWholeList) {
+    std::ifstream file(FOOTFALL_SOURCE_DIR "/docs/scenario.md");
+    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    const std::size_t begin = page.find("- Symbols: ");
+    ASSERT_NE(begin, std::string::npos);
+    std::string listed = page.substr(begin, page.find("\n- ", begin) - begin);
+    std::replace(listed.begin(), listed.end(), '\n', ' ');
+    std::istringstream symbols(known_units());
+    for (std::string symbol; std::getline(symbols >> std::ws, symbol, ',');)
+        EXPECT_NE(listed.find("`" + symbol + "`"), std::string::npos) << symbol;
 }
 
 TEST(Units, RefusesWhatCanBeReadInTwoWays) {

@@ -1,6 +1,7 @@
 // Quantities written with their unit, "1.65 cm", in SI units.
 //
-// A unit is a product of symbols: "N s/m^1.5", "kg m^2", "N/(m s)", "m/s^2". A symbol may carry an SI prefix.
+// A unit is a product of symbols: "N s/m^1.5", "kg m^2", "N/(m s)", "m/s^2". A symbol may carry an SI prefix. Most
+// may be written out: "5 millimetres", "2 feet/second".
 // Powers may be fractions ("m^1.5", "m^(3/2)"), which is why this is not UDUNITS: it knows integer powers only,
 // and the stiffness of the paper's law is in N/m^1.5.
 // An angle is a dimension of its own here, so that "12 Hz" is not taken for 12 rad/s.
@@ -24,8 +25,8 @@ struct Dimension {
     [[nodiscard]] bool operator==(const Dimension& other) const noexcept;
 };
 
-/// A unit: `factor` * 10^`exponent` of the SI unit of its dimension. The power of ten is kept apart so that a
-/// decimal number with a prefixed unit converts without a second rounding: "1.65 cm" is exactly 0.0165.
+/// A unit: `factor` * 10^`exponent` of the SI unit of its dimension. The power of ten is kept apart, and the factor is
+/// whole where it can be, so that a decimal number converts with one rounding: "1.65 cm" is exactly 0.0165.
 struct Unit {
     Dimension dimension;
     double factor = 1;
@@ -47,8 +48,12 @@ struct Quantity {
 [[nodiscard]] Quantity parse_quantity(std::string_view text);
 
 /// The value of `quantity` in SI units, given that it is to be in a multiple of the SI unit `si_unit`. Throws
-/// InvalidInput where it has another dimension, saying which was expected.
+/// InvalidInput where it has another dimension, saying which was expected; the unit that is suggested for an unknown
+/// one has the expected dimension.
 [[nodiscard]] double to_si(std::string_view quantity, std::string_view si_unit);
+
+/// As to_si, where a number without a unit is in SI units: what a command line has.
+[[nodiscard]] double plain_or_si(std::string_view text, std::string_view si_unit);
 
 /// A dimension in words, with its SI unit: "a length (m)", "a mass (kg)".
 [[nodiscard]] std::string describe(const Dimension& dimension);
