@@ -15,7 +15,10 @@
 #include "footfall/io/rig.hpp"
 #include "footfall/io/table_output.hpp"
 #include "footfall/study/drive.hpp"
+#include "settings.hpp"
+#include "shipped.hpp"
 #include "terminal.hpp"
+#include "usage.hpp"
 
 namespace footfall::cli {
 namespace {
@@ -23,10 +26,18 @@ namespace {
 struct DriveArguments {
     std::filesystem::path rig;
     std::vector<std::string> normal, friction;  ///< in place of the file's
-    std::optional<double> tolerance;
+    SettingArguments settings;
     std::optional<std::filesystem::path> csv;
     bool json = false;
+    bool list = false;
+    bool print = false;
 };
+
+RigFile load(const DriveArguments& arguments) {
+    const std::vector<Setting> settings = arguments.settings.all("rig.tolerance");
+    if (const auto text = shipped_text(FileKind::rig, arguments.rig)) return parse_rig(*text, arguments.rig, settings);
+    return load_rig(arguments.rig, settings);
+}
 
 /// The laws to drive, each pair with a name that no other has.
 std::vector<RigRun> laws_to_drive(const DriveArguments& arguments, const ContactParameters& in_file) {
@@ -53,8 +64,11 @@ std::vector<RigRun> laws_to_drive(const DriveArguments& arguments, const Contact
 }
 
 int drive_rig(const DriveArguments& arguments) {
-    RigFile file = load_rig(arguments.rig);
-    if (arguments.tolerance) file.rig.tolerance = *arguments.tolerance;
+    const RigFile file = load(arguments);
+    if (arguments.print) {
+        print(file.text);
+        return ExitCode::success;
+    }
     std::vector<RigRun> runs = laws_to_drive(arguments, file.laws);
     for (RigRun& run : runs) {
         const std::string where = fmt::format("{}: {}", arguments.rig.string(), run.named.name);
@@ -70,8 +84,17 @@ int drive_rig(const DriveArguments& arguments) {
     if (arguments.json) {
         print(to_json(file.rig, runs) + "\n");
     } else {
-        print_page(summary(file.rig, runs), written);
+        std::string page = summary(file.rig, runs);
+        if (file.friction_left_out && arguments.friction.empty()) {
+            page += "\nNo friction: [contact.friction] is not given.\n";
+        }
+        print_page(std::move(page), written);
     }
+    return ExitCode::success;
+}
+
+int list_rigs() {
+    print(shipped_list(FileKind::rig, [](std::string_view text) { return parse_rig(std::string(text)).rig.title; }));
     return ExitCode::success;
 }
 
@@ -80,7 +103,8 @@ int drive_rig(const DriveArguments& arguments) {
 CLI::App* add_drive(CLI::App& app, Command& command) {
     auto arguments = std::make_shared<DriveArguments>();
     CLI::App* drive = app.add_subcommand("drive", "Drive one contact along a path: loops, stick-slip, drift");
-    drive->add_option("RIG", arguments->rig, "The rig, a TOML file")->required()->type_name("");
+    CLI::Option* rig =
+        drive->add_option("RIG", arguments->rig, "A TOML file, or the name of a rig of --list")->type_name("");
     drive
         ->add_option("--normal", arguments->normal,
                      "A normal law in place of the file's, NAME:key=value,...; again for another run beside it")
@@ -93,16 +117,25 @@ CLI::App* add_drive(CLI::App& app, Command& command) {
         ->type_name("LAW")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    drive->add_option("--tolerance", arguments->tolerance, "Relative tolerance, in place of the file's")
-        ->type_name("NUMBER");
-    drive->add_option("--csv", arguments->csv, "Write the samples as a table")->type_name("FILE");
-    drive->add_flag("--json", arguments->json, "Print JSON instead of the summary");
+    arguments->settings.add_to(*drive, "rig", "contact.friction.coefficient=0.3, rig.end=\"3 s\"");
+    CLI::Option* csv = drive->add_option("--csv", arguments->csv, "Write the samples as a table")->type_name("FILE");
+    CLI::Option* json = drive->add_flag("--json", arguments->json, "Print JSON instead of the summary");
+    CLI::Option* show =
+        drive->add_flag("--print", arguments->print, "Print the rig, as --set makes it")->excludes(csv, json);
+    drive->add_flag("--list", arguments->list, "List the rigs that come with footfall")->excludes(rig, csv, json, show);
     drive->footer(
         "Example:\n"
-        "  footfall drive scenarios/rigs/presliding-loop.toml\n"
-        "  footfall drive scenarios/rigs/presliding-loop.toml --friction dahl:stiffness=1e4,coefficient=0.4 \\\n"
+        "  footfall drive presliding-loop\n"
+        "  footfall drive presliding-loop --friction dahl:stiffness=1e4,coefficient=0.4 \\\n"
         "      --friction linear:stiffness=1e5,damping=0,coefficient=0.4 --csv loops.csv\n");
-    drive->final_callback([&command, arguments] { command = [arguments] { return drive_rig(*arguments); }; });
+    drive->final_callback([&command, arguments, rig] {
+        if (arguments->list) {
+            command = list_rigs;
+            return;
+        }
+        if (rig->count() == 0) throw missing(*rig);
+        command = [arguments] { return drive_rig(*arguments); };
+    });
     return drive;
 }
 

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "checks.hpp"
 #include "commands.hpp"
 #include "context.hpp"
 #include "footfall/io/fit_data.hpp"
@@ -127,14 +128,17 @@ CLI::App* add_fit(CLI::App& app, Command& command) {
     fit->add_flag("--sigma-is-true", a->sigma_is_true,
                   "Take sigma at its word; otherwise it only weights, and the residuals say how large the noise is");
     fit->add_option("--loss", a->loss, "What an outlier counts: none (all), huber, cauchy")
-        ->check(CLI::IsMember({"none", "huber", "cauchy"}))
+        ->check(one_of({"none", "huber", "cauchy"}))
         ->capture_default_str()
         ->type_name("LOSS");
     fit->add_option("--starts", a->starts, "Points to start from")
-        ->check(CLI::Range(1, 10000))
+        ->transform(whole_number(1, 10000))
         ->capture_default_str()
         ->type_name("N");
-    fit->add_option("--confidence", a->confidence, "Of the intervals")->capture_default_str()->type_name("P");
+    fit->add_option("--confidence", a->confidence, "Of the intervals")
+        ->transform(number())
+        ->capture_default_str()
+        ->type_name("P");
     fit->add_flag("--json", a->json, "Print JSON");
     fit->add_option("--csv", a->csv, "Write data, models and residuals")->type_name("FILE");
     fit->footer(

@@ -12,6 +12,7 @@
 #include "footfall/simulate/run.hpp"
 #include "footfall/version.hpp"
 #include "terminal.hpp"
+#include "usage.hpp"
 
 namespace footfall::cli {
 namespace {
@@ -57,6 +58,7 @@ struct CommandLine {
 
 int parse_and_run(int argc, char** argv) {
     CommandLine line;
+    const std::vector<std::string> words(argv + (argc > 0 ? 1 : 0), argv + argc);
     const auto refuse = [&line](std::string_view message) {
         say_error(message);
         std::string asked = "footfall";
@@ -70,8 +72,9 @@ int parse_and_run(int argc, char** argv) {
         line.app.exit(asked);
         return ExitCode::success;
     } catch (const CLI::ParseError& error) {
-        return refuse(error.what());
+        return refuse(usage_error(line.app, error, words));
     }
+    if (const auto misuse = misused(line.app, words)) return refuse(*misuse);
     if (!line.command) return refuse("a command is required, one of " + line.names());
     return line.command();
 }

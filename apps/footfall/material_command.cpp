@@ -10,11 +10,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "checks.hpp"
 #include "commands.hpp"
 #include "footfall/io/law_text.hpp"
 #include "footfall/material/coefficients.hpp"
 #include "footfall/material/presets.hpp"
 #include "footfall/study/damping.hpp"
+#include "io/nearest.hpp"
 #include "quantity.hpp"
 #include "terminal.hpp"
 
@@ -74,14 +76,16 @@ Side read_own(std::string_view option, const std::string& text) {
 
 Side read_side(std::string_view option, const std::string& text) {
     if (text.find('=') != std::string::npos) return read_own(option, text);
-    try {
-        const MaterialPreset& preset = material_preset(text);
-        return {std::string(preset.name), preset.material, preset.density,
+    std::vector<std::string> names;
+    for (const MaterialPreset& preset : material_presets()) {
+        names.emplace_back(preset.name);
+        if (preset.name != text) continue;
+        return {text, preset.material, preset.density,
                 fmt::format("{}: E {}; nu {}; density {}", preset.description, preset.youngs_modulus_source,
                             preset.poisson_ratio_source, preset.density_source)};
-    } catch (const InvalidInput& error) {
-        throw InvalidInput(fmt::format("{}: {}; or give \"E=210 GPa,nu=0.3\"", option, error.what()));
     }
+    throw InvalidInput(fmt::format("{}: unknown material '{}'{} (materials: {}; or give \"E=210 GPa,nu=0.3\")", option,
+                                   text, io::did_you_mean(text, names), io::listed(names)));
 }
 
 std::string listed(bool json) {
@@ -251,7 +255,7 @@ CLI::App* add_material(CLI::App& app, Command& command) {
         ->excludes(sphere, ground, radius, alpha, time);
     sub->add_option("--tangential", arguments->tangential, "K_t: the paper's, or Mindlin's, which depends on nu")
         ->type_name("paper|mindlin")
-        ->check(CLI::IsMember({"paper", "mindlin"}));
+        ->check(one_of({"paper", "mindlin"}));
     text("--friction", arguments->friction, "mu, written into the friction law", "NUMBER");
     sub->add_flag("--list", arguments->list, "List the materials with their sources");
     sub->add_flag("--json", arguments->json, "Print JSON instead of TOML");

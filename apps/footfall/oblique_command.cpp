@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "checks.hpp"
 #include "commands.hpp"
 #include "footfall/body/body.hpp"
 #include "footfall/io/law_text.hpp"
@@ -23,6 +24,7 @@
 #include "footfall/io/units.hpp"
 #include "footfall/study/damping.hpp"
 #include "footfall/study/oblique.hpp"
+#include "io/nearest.hpp"
 #include "quantity.hpp"
 #include "table_options.hpp"
 #include "terminal.hpp"
@@ -99,6 +101,11 @@ ObliqueSphere sphere_of(const ObliqueArguments& arguments) {
     if (arguments.inertia == "hollow") {
         sphere.inertia = hollow_sphere_inertia(sphere.mass, r)(0, 0);
     } else if (arguments.inertia != "solid") {
+        const std::vector<std::string> words{"solid", "hollow"};
+        if (arguments.inertia.find_first_of("0123456789") == std::string::npos)
+            throw InvalidInput(fmt::format("--inertia: '{}' is not allowed{} (one of {}, or a number in kg m^2)",
+                                           arguments.inertia, io::did_you_mean(arguments.inertia, words),
+                                           io::listed(words)));
         sphere.inertia = quantity("--inertia", arguments.inertia, "kg m^2");
     }
     sphere.contact = {parse_normal_law(arguments.normal), parse_friction_law(arguments.friction)};
@@ -313,12 +320,16 @@ CLI::App* add_oblique(CLI::App& app, Command& command) {
     oblique_app
         ->add_option("--restitution", a.restitution,
                      "Of a straight impact at the given speed: sets the normal law's damping")
+        ->transform(number())
         ->type_name("NUMBER");
     oblique_app
         ->add_option("--poisson", a.poisson_ratio, "Poisson's ratio: adds psi_1 and psi_2 of Maw, Barber & Fawcett")
+        ->transform(number())
         ->type_name("NU");
     option("--gravity", a.gravity, "Towards the ground, m/s^2; by default 0", "NUMBER");
-    oblique_app->add_option("--tolerance", a.tolerance, "Relative tolerance, by default 1e-10")->type_name("NUMBER");
+    oblique_app->add_option("--tolerance", a.tolerance, "Relative tolerance, by default 1e-10")
+        ->transform(tolerance())
+        ->type_name("NUMBER");
     oblique_app->add_option("--csv", a.csv, "Write the table")->type_name("FILE");
     oblique_app->add_option("--history", a.history, "Write every phase of every impact")->type_name("FILE");
     CLI::Option* data =

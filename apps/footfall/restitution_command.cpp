@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "checks.hpp"
 #include "commands.hpp"
 #include "footfall/io/law_text.hpp"
 #include "footfall/io/table_output.hpp"
@@ -181,18 +182,24 @@ CLI::App* add_restitution(CLI::App& app, Command& command) {
             ->allow_extra_args(false);
     sub->add_option("--from", arguments->from, "Slowest impact, by default 0.01 m/s")->type_name("SPEED");
     sub->add_option("--to", arguments->to, "Fastest impact, by default 10 m/s")->type_name("SPEED");
-    sub->add_option("--points", arguments->points, "Number of speeds, by default 50")->type_name("NUMBER");
+    sub->add_option("--points", arguments->points, "Number of speeds, by default 50")
+        ->transform(whole_number(2, std::numeric_limits<int>::max()))
+        ->type_name("NUMBER");
     sub->add_flag("--linear", arguments->linear, "Speeds in equal steps, not in equal ratios");
     CLI::Option* gravity =
         sub->add_option("--gravity", arguments->gravity, "Gravity, by default none; finds the slowest bounce")
             ->type_name("ACCELERATION");
     sub->add_option("--figure", arguments->figure, "The curves of the paper's figure 2, 3 or 4")
+        ->check(one_of({"2", "3", "4"}))
         ->type_name("NUMBER")
         ->excludes(mass, normal, gravity);
     sub->add_option("--straight", arguments->straight,
                     "Find where e is within this of a straight line in the logarithm of the speed")
+        ->transform(number())
         ->type_name("DEVIATION");
-    sub->add_option("--tolerance", arguments->tolerance, "Relative tolerance, by default 1e-12")->type_name("NUMBER");
+    sub->add_option("--tolerance", arguments->tolerance, "Relative tolerance, by default 1e-12")
+        ->transform(tolerance())
+        ->type_name("NUMBER");
     sub->add_option("--csv", arguments->csv, "Write the table as CSV")->type_name("FILE");
     sub->add_flag("--json", arguments->json, "Print JSON instead of text");
     sub->footer(

@@ -1,26 +1,19 @@
-// A TOML text, read along a description of its tables. toml++ is used here and nowhere else.
+// A TOML text, read along a description of its tables.
 #include "io/document.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
+#include <sstream>
 
 #include <fmt/format.h>
 
-// The assertions of toml++ 3.3 fail on some malformed files ("[" and the end of the line) that it reports correctly
-// without them.
-#define TOML_ASSERT(expression) static_cast<void>(0)
-#include <toml++/toml.h>
-
 #include "footfall/io/units.hpp"
 #include "io/nearest.hpp"
+#include "io/toml.hpp"
 
 namespace footfall::io {
-namespace {
-
-Position position_of(const toml::source_region& region) {
-    return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
-}
 
 std::string_view type_of(const toml::node& node) {
     switch (node.type()) {
@@ -48,10 +41,22 @@ std::string_view type_of(const toml::node& node) {
     return "nothing";
 }
 
+namespace {
+
+Position position_of(const toml::source_region& region) {
+    return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column),
+            region.path ? *region.path : ""};
+}
+
 /// "a length (m)"; a unit that depends on other keys is only named.
 std::string kind_of_number(const Key& key) {
     return key.plain ? fmt::format("a number (in {})", key.unit) : describe(parse_unit(key.unit).dimension);
 }
+
+// More than this is seldom meant in radians: a plain number beyond it is taken for one in degrees, and refused.
+constexpr double full_turn = 2 * std::numbers::pi;
+
+std::string meant_degrees(double value) { return fmt::format("; for degrees write \"{:.6g} deg\"", value); }
 
 /// What a number should be, with how to write it.
 std::string expected_number(const Key& key) {
@@ -188,7 +193,7 @@ private:
             if (!node.contains(name)) continue;
             given.push_back(name);
             const Position key = position_of(key_of(node, name).source());
-            if (given.size() == 1 || std::pair(key.line, key.column) > std::pair(last.line, last.column)) last = key;
+            if (given.size() == 1 || problems_.before(last, key)) last = key;
         }
         if (given.size() > 1) add(last, path, fmt::format("give only one of {}", listed(given)));
         if (given.empty() && group.required) add(at, path, fmt::format("one of {} is missing", listed(group.keys)));
@@ -318,9 +323,20 @@ private:
             add(at, name, fmt::format("{} is not allowed: must be a finite number", value));
             return false;
         }
+        const bool plain_angle = key.unit == "rad" && !node.is_string();
         if (!key.range.contains(value)) {
             const std::string unit = key.unit == "1" ? "" : " " + key.unit;
-            add(at, name, fmt::format("{:.6g}{} is not allowed: must be {}", value, unit, key.range.words(key.unit)));
+            std::string said = fmt::format("{:.6g}{}", value, unit);
+            if (const auto* text = node.as_string()) said = fmt::format("'{}' ({})", text->get(), said);
+            add(at, name,
+                fmt::format("{} is not allowed: must be {}{}", said, key.range.words(key.unit),
+                            plain_angle ? meant_degrees(value) : ""));
+            return false;
+        }
+        if (plain_angle && std::abs(value) > full_turn) {
+            add(at, name,
+                fmt::format("{:.6g} rad is more than a turn{}, or \"{:.6g} rad\" where that is meant", value,
+                            meant_degrees(value), value));
             return false;
         }
         numbers.push_back(value);
@@ -408,9 +424,11 @@ struct Document::Parsed {
     toml::table root;
 };
 
-Document::Document(std::string_view text, const std::string& file) {
+Document::Document(std::string_view text, const std::string& file, const std::vector<Setting>& settings) {
     try {
-        parsed_ = std::make_unique<Parsed>(Parsed{toml::parse(text, std::string_view(file))});
+        auto parsed = std::make_unique<Parsed>(Parsed{toml::parse(text, std::string_view(file))});
+        for (const Setting& setting : settings) apply(setting, parsed->root);
+        parsed_ = std::move(parsed);
     } catch (const toml::parse_error& error) {
         Problems problems(file);
         problems.add(position_of(error.source()), std::string(error.description()));
@@ -424,6 +442,17 @@ bool Document::has(std::string_view path) const { return static_cast<bool>(parse
 
 std::optional<std::string> Document::text(std::string_view path) const {
     return parsed_->root.at_path(path).value<std::string>();
+}
+
+std::string Document::written(const std::vector<Setting>& settings) const {
+    std::string head = "# Changed by";
+    for (const Setting& setting : settings) head += " " + setting.place;
+    // A place may have been written on several lines.
+    std::replace_if(
+        head.begin(), head.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
+    std::ostringstream text;
+    text << head << "\n\n" << toml::toml_formatter(parsed_->root) << '\n';
+    return text.str();
 }
 
 Record Document::read(const Table& table, Problems& problems) const {

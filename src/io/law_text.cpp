@@ -8,9 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "footfall/io/setting.hpp"
 #include "footfall/io/units.hpp"
 #include "io/nearest.hpp"
 #include "io/read.hpp"
+#include "io/text.hpp"
 
 namespace footfall {
 namespace {
@@ -19,14 +21,14 @@ namespace {
 std::string_view trimmed(std::string_view text) { return io::trimmed(text, " \t"); }
 
 /// One "key=value" as it was written.
-struct Setting {
+struct KeyValue {
     std::string_view key, value;
 };
 
 /// "azad-featherstone", {{"stiffness", "8.5e6"}, ...}
 struct Parts {
     std::string_view name;
-    std::vector<Setting> settings;
+    std::vector<KeyValue> settings;
 };
 
 Parts split(std::string_view text, std::string_view kind) {
@@ -40,7 +42,11 @@ Parts split(std::string_view text, std::string_view kind) {
         if (equals == std::string_view::npos) {
             throw InvalidInput(fmt::format("{} law '{}': expected key=value, got '{}'", kind, text, setting));
         }
-        parts.settings.push_back({trimmed(setting.substr(0, equals)), trimmed(setting.substr(equals + 1))});
+        const std::string_view key = trimmed(setting.substr(0, equals));
+        const auto same = [key](const KeyValue& other) { return other.key == key; };
+        if (std::any_of(parts.settings.begin(), parts.settings.end(), same))
+            throw InvalidInput(fmt::format("{} law '{}': '{}' is given twice", kind, parts.name, key));
+        parts.settings.push_back({key, trimmed(setting.substr(equals + 1))});
         if (comma == std::string_view::npos) return parts;
         rest.remove_prefix(comma + 1);
     }
@@ -85,9 +91,6 @@ Law read_law(const Parts& parts, std::string_view kind) {
             throw InvalidInput(fmt::format("{}: unknown parameter '{}'{} It has {}", who, key, suggestion(key, keys),
                                            keys.empty() ? "no parameters" : io::listed(keys)));
         }
-        if (std::find(given.begin(), given.end(), key) != given.end()) {
-            throw InvalidInput(fmt::format("{}: '{}' is given twice", who, key));
-        }
         given.emplace_back(key);
         try {
             law.*parameter->member = read_value(*parameter, text);
@@ -121,6 +124,22 @@ Variant parse(std::string_view text, std::string_view kind) {
     return *found;
 }
 
+/// The law as a table of a file, in one line of TOML.
+Setting law_setting(std::string_view kind, std::string_view text, std::string place) {
+    try {
+        const Parts parts = split(text, kind);
+        std::string table = fmt::format("{{ law = {}", text::toml_string(parts.name));
+        for (const auto& [key, value] : parts.settings) {
+            const std::optional<double> plain = io::plain_number(value);
+            const std::string written = plain ? fmt::format("{}", *plain) : text::toml_string(value);
+            table += fmt::format(", {} = {}", text::toml_string(key), written);
+        }
+        return {fmt::format("contact.{}", kind), table + " }", std::move(place), true};
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(fmt::format("{}: {}", place, error.what()));
+    }
+}
+
 template <class Variant>
 std::string write(const Variant& any) {
     return std::visit(
@@ -139,6 +158,13 @@ std::string write(const Variant& any) {
 
 NormalLaw parse_normal_law(std::string_view text) { return parse<NormalLaw>(text, "normal"); }
 FrictionLaw parse_friction_law(std::string_view text) { return parse<FrictionLaw>(text, "friction"); }
+
+Setting normal_law_setting(std::string_view law, std::string place) {
+    return law_setting("normal", law, std::move(place));
+}
+Setting friction_law_setting(std::string_view law, std::string place) {
+    return law_setting("friction", law, std::move(place));
+}
 
 std::string law_text(const NormalLaw& law) { return write(law); }
 std::string law_text(const FrictionLaw& law) { return write(law); }

@@ -10,6 +10,12 @@ namespace {
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
+/// The word was cut short: "--tol" for "--tolerance". Where it has a letter or two, as many words begin with it.
+bool begins(std::string_view candidate, std::string_view word) {
+    return word.size() >= 3 && candidate.size() > word.size() &&
+           std::equal(word.begin(), word.end(), candidate.begin(), [](char a, char b) { return lower(a) == lower(b); });
+}
+
 }  // namespace
 
 int edit_distance(std::string_view a, std::string_view b) {
@@ -33,9 +39,11 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest(std::string_view word, const std::vector<std::string>& words) {
     std::string best;
-    int best_distance = std::max(1, static_cast<int>(word.size()) / 2) + 1;
+    const int length = static_cast<int>(word.size());
+    // Half the letters may be wrong, but not all of them.
+    int best_distance = std::min(length, std::max(1, length / 2) + 1);
     for (const std::string& candidate : words) {
-        const int distance = edit_distance(word, candidate);
+        const int distance = begins(candidate, word) ? 1 : edit_distance(word, candidate);
         if (distance < best_distance) {
             best = candidate;
             best_distance = distance;

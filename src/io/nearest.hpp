@@ -11,7 +11,7 @@ namespace footfall::io {
 /// compared without their case.
 [[nodiscard]] int edit_distance(std::string_view a, std::string_view b);
 
-/// The word of `words` that is nearest to `word`; empty where none is near enough to be meant.
+/// The word of `words` that is nearest to `word`, or that begins with it; empty where none is near enough to be meant.
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& words);
 
 /// ": did you mean 'WORD'?", or nothing.

@@ -13,6 +13,7 @@ namespace footfall::io {
 struct Position {
     int line = 1;
     int column = 1;
+    std::string source = {};  ///< the file, or the place of a setting (Setting::place); empty: the file
 };
 
 /// Collects what is wrong with a file, so that a user sees all of it at once.
@@ -20,12 +21,17 @@ class Problems {
 public:
     explicit Problems(std::string file) : file_(std::move(file)) {}
 
-    void add(Position at, std::string message);
+    void add(const Position& at, std::string message);
     [[nodiscard]] bool empty() const noexcept { return problems_.empty(); }
-    /// Throws ScenarioError with every problem, in the order of the file; does nothing where there is none.
+    /// `a` is before `b`: what settings say comes after the file.
+    [[nodiscard]] bool before(const Position& a, const Position& b) const;
+    /// Throws ScenarioError with every problem, those of settings first, then in the order of the file; does nothing
+    /// where there is none.
     void throw_if_any() const;
 
 private:
+    [[nodiscard]] bool is_setting(const Position& at) const { return !at.source.empty() && at.source != file_; }
+
     std::string file_;
     std::vector<ScenarioProblem> problems_;
 };

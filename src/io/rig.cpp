@@ -286,8 +286,8 @@ private:
 
 }  // namespace
 
-RigFile parse_rig(const std::string& text, const std::filesystem::path& name) {
-    const Document document(text, name.string());
+RigFile parse_rig(const std::string& text, const std::filesystem::path& name, const std::vector<Setting>& settings) {
+    const Document document(text, name.string(), settings);
     Problems problems(name.string());
     io::Choices choices;
     choices.normal_law = document.text("contact.normal.law");
@@ -296,6 +296,8 @@ RigFile parse_rig(const std::string& text, const std::filesystem::path& name) {
     problems.throw_if_any();
     RigFile file = Builder(root, name.parent_path(), problems).build();
     problems.throw_if_any();
+    file.text = settings.empty() ? text : document.written(settings);
+    file.friction_left_out = !document.has("contact.friction");
     try {
         check(file.rig);
         check(file.laws, "contact");
@@ -306,6 +308,8 @@ RigFile parse_rig(const std::string& text, const std::filesystem::path& name) {
     return file;
 }
 
-RigFile load_rig(const std::filesystem::path& file) { return parse_rig(io::read_file(file), file); }
+RigFile load_rig(const std::filesystem::path& file, const std::vector<Setting>& settings) {
+    return parse_rig(io::read_file(file), file, settings);
+}
 
 }  // namespace footfall

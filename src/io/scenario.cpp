@@ -260,12 +260,14 @@ io::Choices choices_of(const Document& document) {
 
 }  // namespace
 
-Scenario parse_scenario(std::string text, const std::string& name) {
-    const Document document(text, name);
+Scenario parse_scenario(std::string text, const std::string& name, const std::vector<Setting>& settings) {
+    const Document document(text, name, settings);
     Problems problems(name);
     const Record root = document.read(scenario_table(choices_of(document)), problems);
     problems.throw_if_any();
-    Scenario scenario{root.text("title"), Builder(root, problems).build(), std::move(text)};
+    if (!settings.empty()) text = document.written(settings);
+    Scenario scenario{root.text("title"), Builder(root, problems).build(), std::move(text),
+                      !document.has("contact.friction")};
     problems.throw_if_any();
     try {
         check(scenario.simulation);
@@ -277,6 +279,8 @@ Scenario parse_scenario(std::string text, const std::string& name) {
     return scenario;
 }
 
-Scenario load_scenario(const std::filesystem::path& file) { return parse_scenario(io::read_file(file), file.string()); }
+Scenario load_scenario(const std::filesystem::path& file, const std::vector<Setting>& settings) {
+    return parse_scenario(io::read_file(file), file.string(), settings);
+}
 
 }  // namespace footfall

@@ -164,6 +164,8 @@ std::string setup(const Scenario& scenario) {
                simulation.contacts.front().normal);
     std::visit([&]<class Law>(const Law&) { show_law<Law>(table, "Friction", simulation.contacts, friction_of); },
                simulation.contacts.front().friction);
+    // It may have been forgotten; law = "none" says that there is to be none.
+    if (scenario.friction_left_out) table.row({"", "No friction: [contact.friction] is not given."});
     return table.str();
 }
 

@@ -74,6 +74,19 @@ std::string count(long long value) {
     return digits;
 }
 
+std::string toml_string(std::string_view text) {
+    std::string written = "\"";
+    for (const char c : text) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+            written += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+        } else {
+            if (c == '"' || c == '\\') written += '\\';
+            written += c;
+        }
+    }
+    return written + '"';
+}
+
 std::size_t width(std::string_view text) {
     // A byte of the form 10xxxxxx goes on with a character that an earlier byte began.
     return static_cast<std::size_t>(std::count_if(

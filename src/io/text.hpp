@@ -24,6 +24,9 @@ struct Prefix {
 /// The prefix under which `magnitude` reads between 1 and 1000.
 [[nodiscard]] Prefix prefix_of(double magnitude);
 
+/// `text` as a TOML string, with its quotes.
+[[nodiscard]] std::string toml_string(std::string_view text);
+
 /// Columns on a terminal, as many characters as they have, not bytes.
 [[nodiscard]] std::size_t width(std::string_view text);
 

@@ -77,14 +77,14 @@ TEST_F(RestitutionCli, RefusesWrongInputWithTwoAndSaysWhatIsAllowed) {
         EXPECT_TRUE(contains(result.err, why)) << words << "\n" << result.err;
     };
     refuses("restitution", "--mass and at least one --normal are required");
-    refuses("restitution --figure 7", "there are 2, 3 and 4");
-    refuses("restitution --figure 2 --mass 1", "excludes");
+    refuses("restitution --figure 7", "one of 2, 3, 4");
+    refuses("restitution --figure 2 --mass 1", "--mass and --figure cannot be given together");
     refuses("restitution --mass '1 m' --normal linear:stiffness=1,damping=1", "--mass: expected a mass (kg)");
     refuses("restitution --mass 1 --normal linaer:stiffness=1,damping=1", "did you mean 'linear'?");
     refuses("restitution --mass 1 --normal linear:stiffness=1,damping=1 --from 2 --to 1", "above the slowest");
     refuses("restitution --mass 1 --normal linear:stiffness=1,damping=1 --tolerance 1", "from 1e-14 to 1e-3");
     refuses("material", "--sphere and --ground are required");
-    refuses("material --sphere steal --ground cork --radius 0.01", "There are aluminium,");
+    refuses("material --sphere steal --ground cork --radius 0.01", "(materials: aluminium,");
     refuses("material --sphere E=1e9 --ground cork --radius 0.01", "needs both E and nu");
     refuses("material --sphere steel --ground cork --radius 0.01", "no damping is given");
     refuses("material --sphere steel --ground cork --radius 0.01 --alpha 1 --damping-time 1", "more than once");

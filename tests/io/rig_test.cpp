@@ -207,6 +207,15 @@ TEST(RigFile, SaysWhatIsMissing) {
     expect_refusal(rig("[[rig.load]]\nshape = \"ramp\"\nchange = 1\n"), "rig.load[0]: 'duration' is missing");
 }
 
+TEST(RigFile, AnglesMeantInDegreesAreRefusedWithTheMend) {
+    for (const std::string key : {"direction", "phase"}) {
+        const std::string part = "[[rig.displacement]]\nshape = \"sine\"\namplitude = 1\nfrequency = 1\n" + key;
+        expect_refusal(rig(pressed + part + " = 90\n"),
+                       "rig.displacement[0]." + key + ": 90 rad is more than a turn; for degrees write \"90 deg\"");
+        EXPECT_NO_THROW((void)parse_rig(rig(pressed + part + " = \"90 rad\"\n"))) << key;
+    }
+}
+
 TEST(RigFile, RefusesWhatExcludesItself) {
     const std::string dragged = "[[rig.displacement]]\nshape = \"constant\"\nvalue = 0\n";
     expect_refusal(rig(pressed + "[[rig.indentation]]\nshape = \"constant\"\nvalue = 0\n"),

@@ -311,7 +311,7 @@ TEST(ScenarioErrors, NumbersMustBeFinite) {
 }
 
 TEST(ScenarioErrors, RangesAreKept) {
-    expect_problem(changed({{11, "mass = '-154 g'"}}), 11, 8, {"-0.154 kg is not allowed: must be > 0"});
+    expect_problem(changed({{11, "mass = '-154 g'"}}), 11, 8, {"(-0.154 kg) is not allowed: must be > 0"});
     expect_problem(changed({{14, "radius = 0"}}), 14, 10, {"radius: 0 m is not allowed: must be > 0"});
     expect_problem(changed({{3, "end = 0"}}), 3, 7, {"time.end"});
     expect_problem(changed({{4, "sample = -1"}}), 4, 10, {"time.sample", "must be >= 0"});
@@ -478,6 +478,33 @@ TEST(LoadScenario, SaysWhyAFileCannotBeRead) {
         EXPECT_NE(std::string(error.what()).find("/nonexistent/ball.toml"), std::string::npos);
     }
     EXPECT_THROW((void)load_scenario(testing::TempDir()), std::system_error);
+}
+
+// Angles --------------------------------------------------------------------------------------------------------------
+
+TEST(Scenario, AnAngleMeantInDegreesIsRefusedWithTheMend) {
+    expect_problem(changed({{8, "slope = 10"}}), 8, 9,
+                   {"ground.slope: 10 rad is not allowed: must be from -1.5708 rad to 1.5708 rad",
+                    "; for degrees write \"10 deg\""});
+    expect_problem(changed({{17, "rotation = {axis = [0, 1, 0], angle = -90}"}}), 17, 39,
+                   {"body.initial.rotation.angle: -90 rad is more than a turn; for degrees write \"-90 deg\", or "
+                    "\"-90 rad\" where that is meant"});
+}
+
+TEST(Scenario, AnAngleOfSeveralTurnsIsReadWhereItsUnitIsSaid) {
+    const auto angle = [](const std::string& written) {
+        const Simulation s = simulation_of(changed({{17, "rotation = {axis = [0, 0, 1], angle = " + written + "}"}}));
+        return 2 * std::atan2(s.initial.orientation.z(), s.initial.orientation.w());
+    };
+    const auto turns_apart = [](double a, double b) { return std::remainder(a - b, 2 * 3.14159265358979323846); };
+    EXPECT_NEAR(turns_apart(angle("'7 rad'"), 7), 0, 1e-14);
+    EXPECT_NEAR(turns_apart(angle("'720.5 deg'"), angle("'0.5 deg'")), 0, 1e-14);
+    EXPECT_NEAR(turns_apart(angle("6.25"), 6.25), 0, 1e-14);
+}
+
+TEST(Scenario, AQuantityOutOfRangeIsSaidAsItWasWritten) {
+    expect_problem(changed({{8, "slope = '100 deg'"}}), 8, 9, {"ground.slope: '100 deg' (1.74533 rad) is not allowed"});
+    expect_problem(changed({{14, "radius = '-2 cm'"}}), 14, 10, {"'-2 cm' (-0.02 m) is not allowed: must be > 0"});
 }
 
 }  // namespace

@@ -14,15 +14,18 @@ namespace footfall {
 struct RigFile {
     Rig rig;
     ContactParameters laws;
+    std::string text = {};           ///< the file as it was read; with settings, the file that they make of it
+    bool friction_left_out = false;  ///< nothing was said of friction; law = "none" says that there is none
 };
 
-/// Reads a rig file. Tables of points (CSV) are looked for beside it. Throws ScenarioError, or std::system_error where
+/// Reads a rig file, as the settings, in their order, make it. Tables of points (CSV) are looked for beside it. Throws
+/// ScenarioError; InvalidInput, naming its place, where a setting cannot be put into the file; std::system_error where
 /// the file cannot be read.
-[[nodiscard]] RigFile load_rig(const std::filesystem::path& file);
+[[nodiscard]] RigFile load_rig(const std::filesystem::path& file, const std::vector<Setting>& settings = {});
 
-/// Reads a rig from its text; `name` stands for the file in error messages, and names the folder of its tables. Throws
-/// ScenarioError.
-[[nodiscard]] RigFile parse_rig(const std::string& text, const std::filesystem::path& name = "rig");
+/// Likewise from the text of a file; `name` stands for the file in error messages, and names the folder of its tables.
+[[nodiscard]] RigFile parse_rig(const std::string& text, const std::filesystem::path& name = "rig",
+                                const std::vector<Setting>& settings = {});
 
 /// A run and the laws that it was under.
 struct RigRun {
