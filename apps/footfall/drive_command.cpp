@@ -117,7 +117,7 @@ CLI::App* add_drive(CLI::App& app, Command& command) {
         ->type_name("LAW")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    arguments->settings.add_to(*drive, "rig", "contact.friction.coefficient=0.3, rig.end=\"3 s\"");
+    arguments->settings.add_to(*drive, "rig");
     CLI::Option* csv = drive->add_option("--csv", arguments->csv, "Write the samples as a table")->type_name("FILE");
     CLI::Option* json = drive->add_flag("--json", arguments->json, "Print JSON instead of the summary");
     CLI::Option* show =

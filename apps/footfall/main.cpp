@@ -37,7 +37,7 @@ struct CommandLine {
 
     CommandLine() {
         app.require_subcommand(0, 1);  // none at all gets a message of our own
-        app.get_formatter()->column_width(28);
+        app.formatter(help_formatter());
         const std::string version_line = fmt::format("footfall {}", version);
         app.set_version_flag("--version", version_line, "Print the version and exit");
         for (const auto add : commands) {

@@ -116,7 +116,7 @@ CLI::App* add_run(CLI::App& app, Command& command) {
     run->add_option("--friction", arguments->settings.friction,
                     "A friction law, likewise; `footfall laws` lists them all")
         ->type_name("LAW");
-    arguments->settings.add_to(*run, "scenario", "contact.friction.coefficient=0.3, body.mass=\"200 g\"");
+    arguments->settings.add_to(*run, "scenario");
     CLI::Option* json = run->add_flag("--json", arguments->json, "Print JSON instead of the summary");
     CLI::Option* quiet = run->add_flag("-q,--quiet", arguments->quiet, "Print nothing but errors")->excludes(json);
     CLI::Option* show = run->add_flag("--print", arguments->print, "Print the scenario, as the options make it");
@@ -126,7 +126,7 @@ CLI::App* add_run(CLI::App& app, Command& command) {
     run->footer(
         "Example:\n"
         "  footfall run rolling-sphere\n"
-        "  footfall run rolling-sphere --set contact.friction.coefficient=0.3 --set time.end=2 -o rolling.nc\n"
+        "  footfall run rolling-sphere --set contact.friction.coefficient=0.3 --set 'body.mass=200 g' -o rolling.nc\n"
         "  footfall run rolling-sphere --print > mine.toml\n");
     run->final_callback([&command, arguments, scenario] {
         if (arguments->list) {

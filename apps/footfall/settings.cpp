@@ -7,14 +7,13 @@
 
 namespace footfall::cli {
 
-void SettingArguments::add_to(CLI::App& command, const std::string& kind, const std::string& examples) {
+void SettingArguments::add_to(CLI::App& command, const std::string& kind) {
     command.add_option("--tolerance", tolerance, fmt::format("Relative tolerance, in place of the {}'s", kind))
         ->check(cli::tolerance())
         ->type_name("NUMBER");
     command
-        .add_option(
-            "--set", changes,
-            fmt::format("A key of the {} by its path, as if the file said so; may be repeated: {}", kind, examples))
+        .add_option("--set", changes,
+                    fmt::format("A key of the {} by its path, as if the file said so; again for others", kind))
         ->type_name("KEY=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -15,8 +15,8 @@ struct SettingArguments {
     std::string tolerance;             ///< --tolerance; empty: that of the file
     std::vector<std::string> changes;  ///< --set
 
-    /// Adds --tolerance and --set to the command that reads a `kind` ("scenario"); `examples` of KEY=VALUE.
-    void add_to(CLI::App& command, const std::string& kind, const std::string& examples);
+    /// Adds --tolerance and --set to the command that reads a `kind` ("scenario").
+    void add_to(CLI::App& command, const std::string& kind);
 
     /// In the order in which they are put: --set may change the laws that were given. Throws InvalidInput.
     [[nodiscard]] std::vector<Setting> all(const std::string& tolerance_key) const;

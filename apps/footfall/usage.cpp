@@ -1,5 +1,5 @@
-// What is wrong with a command line, in this program's words. CLI11's exceptions only say of which kind an error is;
-// what it is about is read from the state in which they leave the parser.
+// The page of --help, and what is wrong with a command line, in this program's words. CLI11's exceptions only say of
+// which kind an error is; what it is about is read from the state in which they leave the parser.
 #include "usage.hpp"
 
 #include <cctype>
@@ -95,7 +95,8 @@ std::optional<std::string> without_value(const CLI::App& command, const std::vec
 
 std::optional<std::string> given_too_often(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
-        if (takes_value(*option) && static_cast<int>(option->count()) > option->get_items_expected_max())
+        const bool once = option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw;
+        if (once && takes_value(*option) && static_cast<int>(option->count()) > option->get_items_expected_max())
             return fmt::format("{} is given {} times: give it once", name_of(*option), option->count());
     }
     return std::nullopt;
@@ -136,6 +137,23 @@ std::optional<std::string> excluded(const CLI::App& command) {
 }
 
 }  // namespace
+
+std::shared_ptr<CLI::Formatter> help_formatter() {
+    class Help : public CLI::Formatter {
+    public:
+        std::string make_option_opts(const CLI::Option* option) const override {
+            std::string text;
+            if (!option->get_type_name().empty()) text += " " + option->get_type_name();
+            if (!option->get_default_str().empty()) text += "=" + option->get_default_str();
+            if (option->get_items_expected_max() > 1) text += " ...";
+            if (option->get_required()) text += " REQUIRED";
+            return text;
+        }
+    };
+    auto help = std::make_shared<Help>();
+    help->column_width(28);
+    return help;
+}
 
 std::optional<std::string> misused(const CLI::App& app, const std::vector<std::string>& words) {
     const CLI::App& command = given_command(app);

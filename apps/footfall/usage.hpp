@@ -1,6 +1,7 @@
-// What is wrong with a command line, in this program's words.
+// The page of --help, and what is wrong with a command line, in this program's words.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,9 @@
 #include <CLI/CLI.hpp>
 
 namespace footfall::cli {
+
+/// Lays out --help; the command's messages, not the page, say which options exclude each other.
+[[nodiscard]] std::shared_ptr<CLI::Formatter> help_formatter();
 
 /// What is wrong with words that are parsed without an error: a value that is empty, or the name of an option; a value
 /// for a flag. `words` are those after the program's name.

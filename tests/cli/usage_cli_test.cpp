@@ -68,6 +68,7 @@ TEST_F(UsageCli, SaysWhatIsTooMuch) {
             {"run ball.toml --list", "SCENARIO and --list cannot be given together\n"},
             {"run ball.toml --json=yes", "--json takes no value\n"},
             {"run ball.toml --tolerance 1e-5 --tolerance 1e-6", "--tolerance is given 2 times: give it once\n"},
+            {"drive drift --friction none --friction none --tolerance abc", "--tolerance: 'abc' is not a number\n"},
             {"oblique --radius 1 --normal a --friction b --vary c", "--vary needs --fit beside it\n"}});
 }
 

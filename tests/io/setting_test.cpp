@@ -103,7 +103,7 @@ TEST(Setting, ErrorsNameItInPlaceOfALine) {
                         "'hetrz' is not allowed: did you mean 'hertz'?"),
               0u);
     // The file's key that does not fit the setting stays an error of the file.
-    EXPECT_NE(error_with({"contact.normal.law=hertz"}).find("ball.toml:20:1: contact.normal: unknown key 'damping'"),
+    EXPECT_NE(error_with({"contact.normal.law=hertz"}).find("ball.toml:21:1: contact.normal: unknown key 'damping'"),
               std::string::npos);
     const std::string sloping = "[ground]\nnormal = [0, 0, 1]\n" + ball;
     EXPECT_THROW((void)with({"ground.slope=10 deg"}, sloping), ScenarioError);
