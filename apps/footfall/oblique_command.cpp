@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -226,6 +227,26 @@ bool signs_differ(const std::vector<double>& measured, const std::vector<double>
     return std::inner_product(measured.begin(), measured.end(), model.begin(), 0.0) < 0;
 }
 
+/// Refuses what is no "normal.KEY" or "friction.KEY" of these laws.
+void check_vary(const std::vector<std::string>& keys, const ContactParameters& contact) {
+    std::vector<std::string> known;
+    const auto add = [&known](std::string_view kind, const auto& any) {
+        std::visit(
+            [&](const auto& law) {
+                for (const auto& parameter : law.parameters())
+                    known.push_back(fmt::format("{}.{}", kind, parameter.key));
+            },
+            any);
+    };
+    add("normal", contact.normal);
+    add("friction", contact.friction);
+    for (const std::string& key : keys) {
+        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+        throw InvalidInput(fmt::format("--vary: '{}' is no parameter of these laws{} (there are {})", key,
+                                       io::did_you_mean(key, known), io::listed(known)));
+    }
+}
+
 std::string fit_json(const ObliqueFit& fit, const ObliqueData& data) {
     const ObliqueMeasurement& measured = data.measured;
     using Json = nlohmann::ordered_json;
@@ -276,6 +297,7 @@ int fit(const ObliqueArguments& arguments) {
     if (arguments.vary.empty())
         throw InvalidInput("--fit needs --vary KEYS, such as friction.coefficient,friction.stiffness");
     const ObliqueSphere sphere = sphere_of(arguments);
+<<<<<<< HEAD
     const ObliqueData data = read_data(arguments, sphere);
     const ObliqueMeasurement& measured = data.measured;
     ObliqueFit result = fit_oblique(sphere, measured, arguments.vary);
@@ -287,6 +309,11 @@ int fit(const ObliqueArguments& arguments) {
             "the column turns it: --column NAME=-COLUMN",
             measured.observable));
     }
+=======
+    check_vary(arguments.vary, sphere.contact);
+    const ObliqueMeasurement measured = read_measurement(arguments);
+    const ObliqueFit result = fit_oblique(sphere, measured, arguments.vary);
+>>>>>>> d053615 (Document names, settings and units; suggest what may be fitted)
     if (arguments.csv) {
         write_csv(*arguments.csv, Table{"Measured and fitted",
                                         {{"measured", result.unit, measured.observable, measured.values},

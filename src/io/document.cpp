@@ -100,7 +100,7 @@ public:
     explicit Reader(Problems& problems) : problems_(problems) {}
 
     /// `path` is the table's dotted path, empty for the whole document.
-    Record read_table(const toml::table& node, Position at, const Table& table, const std::string& path) {
+    Record read_table(const toml::table& node, const Position& at, const Table& table, const std::string& path) {
         Record record{at, {}};
         std::vector<const Key*> keys;
         for (const Key& key : table.keys) keys.push_back(&key);
@@ -132,7 +132,7 @@ private:
 
     static const toml::key& key_of(const toml::table& node, std::string_view name) { return node.find(name)->first; }
 
-    void add(Position at, const std::string& name, const std::string& message) {
+    void add(const Position& at, const std::string& name, const std::string& message) {
         problems_.add(at, name.empty() ? message : fmt::format("{}: {}", name, message));
     }
 
@@ -170,7 +170,7 @@ private:
         return meant;
     }
 
-    void refuse_missing(Position at, const Key& key, const std::string& path) {
+    void refuse_missing(const Position& at, const Key& key, const std::string& path) {
         const std::string name = name_of(key, path);
         if (key.form == Form::table) {
             problems_.add(at, fmt::format("the table [{}] is missing: {}", name, key.description));
@@ -186,7 +186,7 @@ private:
         }
     }
 
-    void check_one_of(const toml::table& node, Position at, const OneOf& group, const std::string& path) {
+    void check_one_of(const toml::table& node, const Position& at, const OneOf& group, const std::string& path) {
         std::vector<std::string> given;
         Position last;
         for (const std::string& name : group.keys) {
@@ -199,7 +199,7 @@ private:
         if (given.empty() && group.required) add(at, path, fmt::format("one of {} is missing", listed(group.keys)));
     }
 
-    void add_default(Position at, const Key& key, const std::string& name, Record& record) {
+    void add_default(const Position& at, const Key& key, const std::string& name, Record& record) {
         Entry entry{at, {}, false, {}, {}};
         switch (key.form) {
             case Form::flag:

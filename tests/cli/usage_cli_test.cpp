@@ -45,6 +45,11 @@ TEST_F(UsageCli, AnUnknownWordIsMetWithTheNearest) {
           "--inertia: 'sollid' is not allowed: did you mean 'solid'?"},
          {"oblique --radius 1 --mass 1 --speed 1 --normal hertz:stiffness=1e5 --friction daal:a=1",
           "unknown friction law 'daal': did you mean 'dahl'?"},
+         {"oblique --radius 1 --mass 1 --speed 1 --normal hertz:stiffness=1e5 --friction "
+          "dahl:stiffness=1e3,coefficient=1 "
+          "--fit x.csv --vary friction.coeficient",
+          "--vary: 'friction.coeficient' is no parameter of these laws: did you mean 'friction.coefficient'? (there "
+          "are "},
          {"restitution --mass 1 --normal azad-featherstone:stifness=1",
           "normal law 'azad-featherstone': unknown parameter 'stifness': did you mean 'stiffness'?"}});
 }
