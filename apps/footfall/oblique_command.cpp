@@ -297,7 +297,7 @@ int fit(const ObliqueArguments& arguments) {
     if (arguments.vary.empty())
         throw InvalidInput("--fit needs --vary KEYS, such as friction.coefficient,friction.stiffness");
     const ObliqueSphere sphere = sphere_of(arguments);
-<<<<<<< HEAD
+    check_vary(arguments.vary, sphere.contact);
     const ObliqueData data = read_data(arguments, sphere);
     const ObliqueMeasurement& measured = data.measured;
     ObliqueFit result = fit_oblique(sphere, measured, arguments.vary);
@@ -309,11 +309,6 @@ int fit(const ObliqueArguments& arguments) {
             "the column turns it: --column NAME=-COLUMN",
             measured.observable));
     }
-=======
-    check_vary(arguments.vary, sphere.contact);
-    const ObliqueMeasurement measured = read_measurement(arguments);
-    const ObliqueFit result = fit_oblique(sphere, measured, arguments.vary);
->>>>>>> d053615 (Document names, settings and units; suggest what may be fitted)
     if (arguments.csv) {
         write_csv(*arguments.csv, Table{"Measured and fitted",
                                         {{"measured", result.unit, measured.observable, measured.values},

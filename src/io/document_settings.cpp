@@ -27,6 +27,9 @@ bool is_key_letter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
 }
 
+// No key lies nearly as deep; tables that are made without end would exhaust the stack.
+constexpr std::size_t most_steps = 20;
+
 /// "body.spheres[1].radius"
 std::vector<Step> steps_of(const Setting& setting) {
     std::vector<Step> steps;
@@ -49,6 +52,7 @@ std::vector<Step> steps_of(const Setting& setting) {
             rest.remove_prefix(1);
             steps.emplace_back(index);
         }
+        if (steps.size() > most_steps) malformed();
         if (rest.empty()) return steps;
         if (rest.front() != '.') malformed();
         rest.remove_prefix(1);

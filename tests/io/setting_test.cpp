@@ -144,6 +144,9 @@ TEST(Setting, WhatCannotBePutIsRefused) {
         {"body.mass=", "expected KEY=VALUE"},
         {"=1", "expected KEY=VALUE"},
     };
+    std::string deep = "a";
+    for (int i = 0; i < 100000; ++i) deep += ".a";
+    EXPECT_NE(error_with({deep + "=1"}).find("is not a key"), std::string::npos);
     for (const auto& [setting, why] : cases) {
         const std::string error = error_with({setting});
         EXPECT_EQ(error.find("--set " + setting + ": "), 0u) << error;
