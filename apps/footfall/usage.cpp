@@ -2,6 +2,7 @@
 // which kind an error is; what it is about is read from the state in which they leave the parser.
 #include "usage.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <string_view>
 
@@ -61,10 +62,15 @@ std::string unknown_command(const CLI::App& app, const std::string& word) {
 /// What the parser had no place for.
 std::optional<std::string> left_over(const CLI::App& app) {
     const CLI::App& command = given_command(app);
-    const std::vector<std::string> words = app.remaining(true);
+    std::vector<std::string> words = app.remaining(true);
+    words.erase(std::remove(words.begin(), words.end(), "--"), words.end());  // ends the options, and is none
     for (const std::string& word : words) {
         if (word.size() < 2 || !word.starts_with('-')) continue;
         const std::string name = word.substr(0, word.find('='));
+        if (option_named(command, word)) {
+            return fmt::format("{} stands before the command: write footfall {} ... {}", name, command.get_name(),
+                               name);
+        }
         const std::vector<std::string> names = option_names(command);
         return fmt::format("unknown option '{}'{} (options: {})", name, io::did_you_mean(name, names),
                            io::listed(names));

@@ -33,6 +33,8 @@ TEST_F(UsageCli, AnUnknownWordIsMetWithTheNearest) {
          {"ball.toml", "unknown command 'ball.toml': did you mean 'footfall run ball.toml'?"},
          {"run ball.toml --tol 1e-5", "unknown option '--tol': did you mean '--tolerance'? (options: --help, --output"},
          {"run ball.toml --tolerence=1e-5", "unknown option '--tolerence': did you mean '--tolerance'?"},
+         {"--tolerance 1e-5 run ball.toml",
+          "--tolerance stands before the command: write footfall run ... --tolerance\n"},
          // The misspelt option is said rather than the one that is missing for it.
          {"oblique --raduis 1cm", "unknown option '--raduis': did you mean '--radius'?"},
          {"fit x.csv -n hertz:stiffness=? --loss hubert",
@@ -68,6 +70,7 @@ TEST_F(UsageCli, SaysWhatIsMissing) {
 
 TEST_F(UsageCli, SaysWhatIsTooMuch) {
     expect({{"run ball.toml b.toml", "unexpected argument 'b.toml': footfall run takes one SCENARIO and options\n"},
+            {"run -- ball.toml b.toml", "unexpected argument 'b.toml'"},
             {"schema x", "unexpected argument 'x': footfall schema takes only options\n"},
             {"run ball.toml --json --quiet", "--json and --quiet cannot be given together\n"},
             {"run ball.toml --list", "SCENARIO and --list cannot be given together\n"},
