@@ -150,7 +150,7 @@ TEST(TableReader, TakesTheUsersWordForAColumn) {
     input.columns = {{"speed", "U [m/s]"}};
     expect_refused("U [mm/s],e\n100,0.7\n", "'U [mm/s]' has the unit mm/s, but U [m/s] asks for m/s", input);
     input.columns = {{"speed", "W"}};
-    expect_refused("U,e\n100,0.7\n", "speed: no column 'W': did you mean 'U'? (columns here: U, e)", input);
+    expect_refused("U,e\n100,0.7\n", "speed: no column 'W' (columns here: U, e)", input);
     input.columns = {{"sped", "U"}};
     expect_refused("U,e\n100,0.7\n", "unknown quantity 'sped': did you mean 'speed'?", input);
 }
