@@ -45,6 +45,7 @@ void bind_scenario(nb::module_& module) {
         .def_ro("sample_period", &RunOptions::sample_period, "[s]; 0: only the first and the last moment.")
         .def_ro("tolerance", &RunOptions::tolerance, "Relative error of a step, from 1e-14 to 1e-3.")
         .def_ro("max_evaluations", &RunOptions::max_evaluations, "Of the equations of motion; more is TooExpensive.")
+        .def_ro("max_memory", &RunOptions::max_memory, "Of samples and events [bytes]; more is TooExpensive.")
         .def_ro("allow_initial_penetration", &RunOptions::allow_initial_penetration);
     nb::class_<Simulation>(module, "Simulation", "One body over one ground, in SI units. To read; change the scenario.")
         .def_ro("body", &Simulation::body)

@@ -12,6 +12,8 @@
 #include "footfall/io/units.hpp"
 #include "io/nearest.hpp"
 #include "io/toml.hpp"
+#include "io/toml_scan.hpp"
+#include "io/toml_words.hpp"
 
 namespace footfall::io {
 
@@ -133,7 +135,12 @@ private:
     static const toml::key& key_of(const toml::table& node, std::string_view name) { return node.find(name)->first; }
 
     void add(const Position& at, const std::string& name, const std::string& message) {
-        problems_.add(at, name.empty() ? message : fmt::format("{}: {}", name, message));
+        add(at, name, [&message] { return message; });
+    }
+    template <class Message>
+        requires std::is_invocable_r_v<std::string, Message>
+    void add(const Position& at, const std::string& name, const Message& message) {
+        problems_.add(at, [&] { return name.empty() ? message() : fmt::format("{}: {}", name, message()); });
     }
 
     /// Adds the keys that the selector's value chooses. False where nothing is chosen: the rest of the table cannot
@@ -158,14 +165,16 @@ private:
             const auto known = [&key = key](const Key* k) { return k->name == key.str(); };
             if (std::any_of(keys.begin(), keys.end(), known)) continue;
             if (names.empty()) {
-                add(position_of(key.source()), path,
-                    fmt::format("unknown key '{}': {}", key.str(), table.without_keys));
+                add(position_of(key.source()), path, [&, &key = key] {
+                    return fmt::format("unknown key '{}': {}", shown(key.str()), table.without_keys);
+                });
                 continue;
             }
-            meant.insert(nearest(key.str(), names));
-            add(position_of(key.source()), path,
-                fmt::format("unknown key '{}'{} (keys here: {})", key.str(), did_you_mean(key.str(), names),
-                            listed(names)));
+            if (meant.size() < names.size()) meant.insert(nearest(key.str(), names));
+            add(position_of(key.source()), path, [&, &key = key] {
+                return fmt::format("unknown key '{}'{} (keys here: {})", shown(key.str()),
+                                   did_you_mean(key.str(), names), listed(names));
+            });
         }
         return meant;
     }
@@ -294,7 +303,7 @@ private:
     bool check_choice(const Key& key, const std::string& name, const Entry& entry) {
         if (std::find(key.choices.begin(), key.choices.end(), entry.text) != key.choices.end()) return true;
         add(entry.at, name,
-            fmt::format("'{}' is not allowed{} ({}one of {})", entry.text, did_you_mean(entry.text, key.choices),
+            fmt::format("'{}' is not allowed{} ({}one of {})", shown(entry.text), did_you_mean(entry.text, key.choices),
                         key.choices_where, listed(key.choices)));
         return false;
     }
@@ -425,14 +434,28 @@ struct Document::Parsed {
 };
 
 Document::Document(std::string_view text, const std::string& file, const std::vector<Setting>& settings) {
+    const auto refuse = [&file](const Position& at, std::string message) {
+        Problems problems(file);
+        problems.add(at, std::move(message));
+        problems.throw_if_any();
+    };
+    const TomlScan scan = scan_toml(text);
+    if (scan.too_deep) {
+        refuse(*scan.too_deep,
+               fmt::format("nested deeper than {} brackets or dots: no key here is so deep", deepest_toml));
+    }
     try {
         auto parsed = std::make_unique<Parsed>(Parsed{toml::parse(text, std::string_view(file))});
         for (const Setting& setting : settings) apply(setting, parsed->root);
         parsed_ = std::move(parsed);
     } catch (const toml::parse_error& error) {
-        Problems problems(file);
-        problems.add(position_of(error.source()), std::string(error.description()));
-        problems.throw_if_any();
+        const Position at = position_of(error.source());
+        // What is left open is better said where it was opened than where the text ends.
+        if (scan.unclosed &&
+            std::pair(scan.unclosed->at.line, scan.unclosed->at.column) <= std::pair(at.line, at.column)) {
+            refuse(scan.unclosed->at, not_closed(scan.unclosed->what));
+        }
+        refuse(at, in_plain_words(error.description(), text, at));
     }
 }
 

@@ -39,6 +39,7 @@ Json impact_list(const std::vector<Impact>& impacts) {
                         {"speed_in", impact.speed_in},
                         {"speed_out", or_null(impact.speed_out)},
                         {"restitution", or_null(impact.restitution())},
+                        {"stick_time", impact.stick_time},
                         {"peak_normal_force", impact.peak_normal_force},
                         {"peak_indentation", impact.peak_indentation}});
     }

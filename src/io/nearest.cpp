@@ -38,6 +38,8 @@ int edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& words) {
+    constexpr std::size_t longest = 100;  // of a word that a person may have misspelt; the table grows with it
+    if (word.size() > longest) return "";
     std::string best;
     const int length = static_cast<int>(word.size());
     // Half the letters may be wrong, but not all of them.

@@ -10,27 +10,70 @@
 namespace footfall {
 namespace {
 
-std::string as_text(const std::string& file, const std::vector<ScenarioProblem>& problems) {
+constexpr std::size_t most_kept = 1000;    // problems of one file
+constexpr std::size_t most_in_full = 20;   // of those, in one text
+constexpr std::size_t longest_piece = 60;  // of the user's text, in a message [bytes]
+constexpr std::size_t longest_message = 2000;
+
+/// What of `text` is within `size` bytes, without half a character at the end.
+std::string_view cut(std::string_view text, std::size_t size) {
+    if (text.size() <= size) return text;
+    const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+    while (size > 0 && continues(text[size])) --size;
+    return text.substr(0, size);
+}
+
+std::string as_text(const std::string& file, const std::vector<ScenarioProblem>& problems, std::size_t more) {
     std::string text;
-    for (const ScenarioProblem& problem : problems) {
+    const std::size_t in_full = std::min(problems.size(), most_in_full);
+    for (std::size_t i = 0; i < in_full; ++i) {
+        const ScenarioProblem& problem = problems[i];
         if (!text.empty()) text += '\n';
         text += problem.setting.empty()
                     ? fmt::format("{}:{}:{}: {}", file, problem.line, problem.column, problem.message)
                     : fmt::format("{}: {}", problem.setting, problem.message);
     }
+    const std::size_t rest = problems.size() - in_full + more;
+    if (rest > 0) text += fmt::format("\n{}: ... and {} more problem{}", file, rest, rest == 1 ? "" : "s");
     return text;
 }
 
 }  // namespace
 
-ScenarioError::ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems)
-    : InvalidInput(as_text(file, problems)), problems_(std::move(problems)) {}
+ScenarioError::ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems, std::size_t more)
+    : InvalidInput(as_text(file, problems, more)), problems_(std::move(problems)), more_(more) {}
 
 namespace io {
 
+std::string shown(std::string_view text) {
+    const std::string_view kept = cut(text, longest_piece);
+    std::string line;
+    for (const char c : kept) {
+        const auto code = static_cast<unsigned char>(c);
+        constexpr unsigned char first_printable = 0x20, delete_character = 0x7F;
+        if (c == '\n') {
+            line += "\\n";
+        } else if (c == '\t') {
+            line += "\\t";
+        } else if (code < first_printable || code == delete_character) {
+            line += fmt::format("\\u{:04x}", code);
+        } else {
+            line += c;
+        }
+    }
+    return kept.size() < text.size() ? line + "..." : line;
+}
+
 void Problems::add(const Position& at, std::string message) {
+    if (full()) {
+        ++more_;
+        return;
+    }
+    if (message.size() > longest_message) message = std::string(cut(message, longest_message)) + "...";
     problems_.push_back({at.line, at.column, std::move(message), is_setting(at) ? at.source : ""});
 }
+
+bool Problems::full() const noexcept { return problems_.size() >= most_kept; }
 
 bool Problems::before(const Position& a, const Position& b) const {
     return std::tuple(is_setting(a), a.line, a.column) < std::tuple(is_setting(b), b.line, b.column);
@@ -43,7 +86,7 @@ void Problems::throw_if_any() const {
         if (a.setting.empty() != b.setting.empty()) return b.setting.empty();
         return a.setting.empty() && std::pair(a.line, a.column) < std::pair(b.line, b.column);
     });
-    throw ScenarioError(file_, std::move(sorted));
+    throw ScenarioError(file_, std::move(sorted), more_);
 }
 
 }  // namespace io

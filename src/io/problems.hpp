@@ -1,7 +1,10 @@
 // What is wrong with a file, and where.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,24 +19,39 @@ struct Position {
     std::string source = {};  ///< the file, or the place of a setting (Setting::place); empty: the file
 };
 
-/// Collects what is wrong with a file, so that a user sees all of it at once.
+/// A piece of the user's text as a message shows it: on one line, and cut where it is long.
+[[nodiscard]] std::string shown(std::string_view text);
+
+/// Collects what is wrong with a file, so that a user sees all of it at once. Beyond a thousand it only counts.
 class Problems {
 public:
     explicit Problems(std::string file) : file_(std::move(file)) {}
 
     void add(const Position& at, std::string message);
+    /// `message()` is only made where it is kept.
+    template <class Message>
+        requires std::is_invocable_r_v<std::string, Message>
+    void add(const Position& at, const Message& message) {
+        if (full()) {
+            ++more_;
+        } else {
+            add(at, std::string(message()));
+        }
+    }
     [[nodiscard]] bool empty() const noexcept { return problems_.empty(); }
     /// `a` is before `b`: what settings say comes after the file.
     [[nodiscard]] bool before(const Position& a, const Position& b) const;
-    /// Throws ScenarioError with every problem, those of settings first, then in the order of the file; does nothing
-    /// where there is none.
+    /// Throws ScenarioError with every problem that was kept, those of settings first, then in the order of the file;
+    /// does nothing where there is none.
     void throw_if_any() const;
 
 private:
     [[nodiscard]] bool is_setting(const Position& at) const { return !at.source.empty() && at.source != file_; }
+    [[nodiscard]] bool full() const noexcept;
 
     std::string file_;
     std::vector<ScenarioProblem> problems_;
+    std::size_t more_ = 0;
 };
 
 }  // namespace footfall::io

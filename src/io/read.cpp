@@ -2,25 +2,43 @@
 
 #include <cerrno>
 #include <charconv>
+#include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "footfall/math/error.hpp"
+
 namespace footfall::io {
 
-std::string read_file(const std::filesystem::path& file) {
+std::string read_file(const std::filesystem::path& file, std::size_t limit) {
     const auto fail = [&file](int error) {
         throw std::system_error(error != 0 ? error : EIO, std::generic_category(),
                                 fmt::format("cannot read {}", file.string()));
     };
+    const auto refuse_size = [&](const std::string& size) {
+        constexpr std::size_t mebi = std::size_t{1} << 20;
+        throw InvalidInput(
+            fmt::format("cannot read {}: it holds {}, and {} MiB are the most", file.string(), size, limit / mebi));
+    };
     // A directory opens as a file on some systems and reads as an empty one.
-    if (std::filesystem::is_directory(file)) fail(EISDIR);
+    std::error_code unknown;
+    if (std::filesystem::is_directory(file, unknown)) fail(EISDIR);
     errno = 0;
     std::ifstream stream(file, std::ios::binary);
     if (!stream) fail(errno);
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    const std::uintmax_t size = std::filesystem::file_size(file, unknown);  // of a pipe or a device, unknown
+    if (!unknown && size > limit) refuse_size(fmt::format("{} bytes", size));
+    constexpr std::size_t block = std::size_t{1} << 20;
+    std::string text;
+    while (stream) {
+        const std::size_t before = text.size();
+        text.resize(before + block);
+        stream.read(text.data() + before, static_cast<std::streamsize>(block));
+        text.resize(before + static_cast<std::size_t>(stream.gcount()));
+        if (text.size() > limit) refuse_size(fmt::format("more than {} bytes", limit));
+    }
     if (stream.bad()) fail(errno);
     return text;
 }

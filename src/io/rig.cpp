@@ -129,6 +129,10 @@ Table rig_table() {
                                                     "a run that needs more evaluations is stopped"),
                                          1e8),
                             {1}),
+                     within(with_default(number_key("max_memory", "1", "16e9",
+                                                    "bytes; a run whose samples and events take more is refused"),
+                                         4e9),
+                            {1}),
                      path_key("indentation", "m", false, "z; negative above the ground"),
                      path_key("load", "N", false, "F_n, > 0; the depth follows without inertia or damping"),
                      path_key("displacement", "m", true, "slip displacement"),
@@ -195,6 +199,7 @@ public:
         if (record.has("sample")) rig.sample_period = record.number("sample");
         rig.tolerance = record.number("tolerance");
         rig.max_evaluations = record.number("max_evaluations");
+        rig.max_memory = record.number("max_memory");
         rig.press = record.has("load") ? Press::load : Press::indentation;
         rig.pressing = rig.press == Press::load ? line(record, load) : line(record, indentation);
         if (record.has("velocity")) {
@@ -309,7 +314,7 @@ RigFile parse_rig(const std::string& text, const std::filesystem::path& name, co
 }
 
 RigFile load_rig(const std::filesystem::path& file, const std::vector<Setting>& settings) {
-    return parse_rig(io::read_file(file), file, settings);
+    return parse_rig(io::read_file(file, io::largest_toml), file, settings);
 }
 
 }  // namespace footfall

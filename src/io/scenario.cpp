@@ -23,7 +23,6 @@ using io::Entry;
 using io::Problems;
 using io::Record;
 
-constexpr double max_samples = 1e7;
 // What the numbers of a file may be off by, relative to their size: decimals are seldom exact.
 constexpr double symmetry_slack = 1e-9;
 constexpr double moments_slack = 1e-12;
@@ -101,17 +100,10 @@ private:
         const Record& time = root_.table("time");
         options.end_time = time.number("end");
         options.sample_period = time.has("sample") ? time.number("sample") : options.end_time / 1000;
-        if (time.has("sample") && options.end_time > max_samples * options.sample_period && options.sample_period > 0) {
-            problems_.add(
-                time["sample"].at,
-                fmt::format("time.sample: {:.6g} s asks for {:.3g} samples until the end at {:.6g} s: must be "
-                            "0, or at least {:.3g} s",
-                            options.sample_period, options.end_time / options.sample_period, options.end_time,
-                            options.end_time / max_samples));
-        }
         const Record& solver = root_.table("solver");
         options.tolerance = solver.number("tolerance");
         options.max_evaluations = solver.number("max_evaluations");
+        options.max_memory = solver.number("max_memory");
         options.allow_initial_penetration = root_.table("contact").flag("allow_initial_penetration");
     }
 
@@ -280,7 +272,7 @@ Scenario parse_scenario(std::string text, const std::string& name, const std::ve
 }
 
 Scenario load_scenario(const std::filesystem::path& file, const std::vector<Setting>& settings) {
-    return parse_scenario(io::read_file(file), file.string(), settings);
+    return parse_scenario(io::read_file(file, io::largest_toml), file.string(), settings);
 }
 
 }  // namespace footfall

@@ -285,7 +285,7 @@ Table time_table() {
                       .range = not_negative,
                       .fallback_text = "end / 1000",
                       .example = "\"0.1 ms\"",
-                      .description = "output period; 0: the first and the last moment only; at most 1e7 samples"}}};
+                      .description = "output period; 0: the first and the last moment only"}}};
 }
 
 Table solver_table() {
@@ -299,7 +299,12 @@ Table solver_table() {
                       .range = {1},
                       .fallback = {1e8},
                       .example = "1e9",
-                      .description = "a run that needs more evaluations of the equations of motion is refused"}}};
+                      .description = "a run that needs more evaluations of the equations of motion is refused"},
+                     {.name = "max_memory",
+                      .range = {1},
+                      .fallback = {4e9},
+                      .example = "16e9",
+                      .description = "bytes; a run whose samples and events take more memory is refused"}}};
 }
 
 Table gravity_table() {

@@ -19,6 +19,8 @@ void check(const RunOptions& o) {
         throw InvalidInput(fmt::format("options: tolerance is {}; it must be from 1e-14 to 1e-3", o.tolerance));
     if (!(o.max_evaluations >= 1))
         throw InvalidInput(fmt::format("options: max_evaluations is {}; it must be >= 1", o.max_evaluations));
+    if (!(o.max_memory >= 1))
+        throw InvalidInput(fmt::format("options: max_memory is {} bytes; it must be >= 1", o.max_memory));
 }
 
 void check(const BodyState& b) {

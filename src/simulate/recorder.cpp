@@ -4,9 +4,16 @@
 #include <limits>
 #include <utility>
 
+#include "footfall/simulate/budget.hpp"
+
 namespace footfall {
 
 void Recorder::begin(Snapshot initial) {
+    const std::size_t spheres = initial.contacts.size();
+    const double samples = sample_count(options_.sample_period, options_.end_time);
+    samples_bytes_ = samples * (sizeof(Snapshot) + contacts_bytes(spheres));
+    if (samples_bytes_ > options_.max_memory) refuse_memory(samples_bytes_, spheres, options_);
+    run_.samples.reserve(static_cast<std::size_t>(samples));
     open_.assign(initial.contacts.size(), -1);
     stuck_since_.assign(initial.contacts.size(), 0.0);
     run_.initial = std::move(initial);
@@ -28,19 +35,29 @@ void Recorder::end(Snapshot last, const Cost& cost) {
 }
 
 double Recorder::next_sample() const noexcept {
-    if (!(period_ > 0)) return std::numeric_limits<double>::infinity();
-    const double due = static_cast<double>(sampled_) * period_;
+    if (!(options_.sample_period > 0)) return std::numeric_limits<double>::infinity();
+    const double due = static_cast<double>(sampled_) * options_.sample_period;
     // The last sample is the end itself.
-    return due < end_ * (1 - 1e-12) ? due : std::numeric_limits<double>::infinity();
+    return due < options_.end_time * (1 - 1e-12) ? due : std::numeric_limits<double>::infinity();
 }
 
 void Recorder::sample(Snapshot shot) {
-    shot.time = static_cast<double>(sampled_) * period_;
+    shot.time = static_cast<double>(sampled_) * options_.sample_period;
     run_.samples.push_back(std::move(shot));
     ++sampled_;
 }
 
+double Recorder::bytes() const noexcept {
+    // A full list moves to a larger place, and is there twice meanwhile.
+    const double events = static_cast<double>(run_.events.size());
+    const double moving = run_.events.size() == run_.events.capacity() ? events : 0;
+    return samples_bytes_ + events * (sizeof(Event) + contacts_bytes(open_.size())) + moving * sizeof(Event) +
+           static_cast<double>(run_.impacts.size()) * sizeof(Impact);
+}
+
 void Recorder::event(EventKind kind, int sphere, Snapshot shot) {
+    if (const double needed = bytes(); needed > options_.max_memory)
+        stop_for_events(needed, run_.events.size(), shot.time, options_);
     const auto i = static_cast<std::size_t>(sphere);
     const double time = shot.time;
     Impact* impact = open_impact(sphere);

@@ -4,14 +4,16 @@
 
 #include "footfall/law/any_normal.hpp"
 #include "footfall/law/any_rate_friction.hpp"
+#include "footfall/simulate/budget.hpp"
 
 namespace footfall {
 
 template <class Normal, class Friction>
 Run run_under(const Simulation& simulation);  // instantiated in run_<laws>.cpp
 
-Run run(const Simulation& simulation) {
-    check(simulation);
+namespace {
+
+Run run_by_laws(const Simulation& simulation) {
     const ContactParameters& laws = simulation.contacts.front();
     return std::visit(
         [&]<class Friction>(const Friction&) {
@@ -27,6 +29,13 @@ Run run(const Simulation& simulation) {
             }
         },
         laws.friction);
+}
+
+}  // namespace
+
+Run run(const Simulation& simulation) {
+    check(simulation);
+    return within_memory([&] { return run_by_laws(simulation); });
 }
 
 }  // namespace footfall

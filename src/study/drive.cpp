@@ -11,6 +11,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
+#include "footfall/simulate/budget.hpp"
 #include "footfall/simulate/guard_search.hpp"
 #include "footfall/simulate/method.hpp"
 #include "study/driven_contact.hpp"
@@ -21,6 +22,12 @@ namespace footfall {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
+
+// A sample is kept, becomes a row of drive_table, and is written as text: as JSON, a number takes some 25 characters,
+// and the text is there twice before it is printed.
+constexpr double columns_of_table = 28;
+constexpr double sample_bytes = sizeof(RigState) + columns_of_table * (sizeof(double) + 2 * 25);
+constexpr double event_bytes = 2 * sizeof(RigEvent);  // a full list moves to a larger place
 
 class Driver {
 public:
@@ -38,6 +45,7 @@ public:
     }
 
     Drive run() {
+        reserve_samples();
         const auto start = std::chrono::steady_clock::now();
         const std::vector<Interval>& intervals = timeline_.intervals();
         for (std::size_t k = 0; k < intervals.size(); ++k) {
@@ -74,6 +82,17 @@ private:
         ++result_.cost.evaluations;
         contact_->evaluate(y, rate, look ? &guards_ : nullptr);
         if (look) lowest_ = std::min(lowest_, guards_.clutch);
+    }
+
+    void reserve_samples() {
+        const double samples = sample_count(rig_.period(), rig_.end_time);
+        samples_bytes_ = samples * sample_bytes;
+        if (samples_bytes_ > rig_.max_memory)
+            throw TooExpensive(
+                fmt::format("{:.3g} samples would take about {} of memory, more than the {} of max_memory; choose a "
+                            "longer sample period or a shorter run, or raise max_memory",
+                            samples, bytes_text(samples_bytes_), bytes_text(rig_.max_memory)));
+        result_.samples.reserve(static_cast<std::size_t>(samples));
     }
 
     // ---- sizes ------------------------------------------------------------------------------------------------
@@ -171,6 +190,12 @@ private:
         }
     }
     void say(EventKind kind) {
+        const double needed = samples_bytes_ + static_cast<double>(result_.events.size()) * event_bytes;
+        if (needed > rig_.max_memory)
+            throw TooExpensive(fmt::format(
+                "stopped at {:.6g} s: {} events take about {} of memory with the samples, more than the {} of "
+                "max_memory; shorten the run, or raise max_memory",
+                time_at(y_[L::theta]), result_.events.size(), bytes_text(needed), bytes_text(rig_.max_memory)));
         result_.events.push_back({time_at(y_[L::theta]), kind, state(y_)});
         see_forces(result_.events.back().state);
     }
@@ -442,6 +467,7 @@ private:
     Method<DrivenState, Eigen::Dynamic, RightHandSide, Slopes> method_;
     double step_ = 1e-4, last_step_ = 0;  // in theta; in time
     double next_sample_ = 0;
+    double samples_bytes_ = 0;
     double initial_balance_ = 0, largest_error_ = 0;
     double last_switch_ = -1;
     int switches_ = 0;
@@ -463,7 +489,7 @@ double RigEnergy::magnitude() const noexcept {
 Drive drive(const Rig& rig, const ContactParameters& laws) {
     check(rig);
     check(laws, "contact");
-    return Driver(rig, laws).run();
+    return within_memory([&] { return Driver(rig, laws).run(); });
 }
 
 }  // namespace footfall

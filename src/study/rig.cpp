@@ -184,12 +184,9 @@ Path Path::scaled(double factor) const {
 void check(const Rig& rig) {
     require(rig.end_time > 0 && std::isfinite(rig.end_time), "end", rig.end_time, "finite and > 0");
     require(rig.sample_period >= 0 && std::isfinite(rig.sample_period), "sample", rig.sample_period, "finite and >= 0");
-    constexpr double most_samples = 1e7;
-    require(rig.end_time <= most_samples * rig.period(), "sample", rig.sample_period,
-            fmt::format("at least {:.3g} s, so that there are at most {:.0e} samples", rig.end_time / most_samples,
-                        most_samples));
     require(rig.tolerance >= 1e-14 && rig.tolerance <= 1e-3, "tolerance", rig.tolerance, "from 1e-14 to 1e-3");
     require(rig.max_evaluations >= 1, "max_evaluations", rig.max_evaluations, ">= 1");
+    require(rig.max_memory >= 1, "max_memory", rig.max_memory, ">= 1 byte");
     check_path(rig.pressing, rig.press == Press::load ? "load" : "indentation", rig.end_time);
     if (rig.drag != Drag::mass) {
         check_path(rig.dragging, rig.drag == Drag::velocity ? "velocity" : "displacement", rig.end_time);

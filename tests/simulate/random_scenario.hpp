@@ -179,8 +179,26 @@ inline bool finite(const Snapshot& s) {
     return good;
 }
 
+/// What of a run is not in the order of time; empty where all is.
+inline std::string disorder(const Run& run) {
+    for (std::size_t k = 1; k < run.samples.size(); ++k)
+        if (!(run.samples[k - 1].time < run.samples[k].time)) return fmt::format("sample {} is out of order", k);
+    for (std::size_t k = 1; k < run.events.size(); ++k)
+        if (!(run.events[k - 1].time <= run.events[k].time))
+            return fmt::format("event {} ({} at {} s) is before the last ({} at {} s)", k, name_of(run.events[k].kind),
+                               run.events[k].time, name_of(run.events[k - 1].kind), run.events[k - 1].time);
+    for (std::size_t k = 0; k < run.events.size(); ++k)
+        if (run.events[k].time != run.events[k].state.time)
+            return fmt::format("event {} has another time than its state", k);
+    for (std::size_t k = 1; k < run.impacts.size(); ++k)
+        if (!(run.impacts[k - 1].touchdown <= run.impacts[k].touchdown))
+            return fmt::format("impact {} is out of order", k);
+    return "";
+}
+
 /// What is wrong with a run; empty where nothing is.
 inline std::string verdict(const Run& run, double tolerance) {
+    if (const std::string wrong = disorder(run); !wrong.empty()) return wrong;
     if (run.max_residual > 1e-8) return fmt::format("residual {:.2e} is above 1e-8", run.max_residual);
     // A channel is integrated to the tolerance, so it may waver by that much where it stands still.
     const double slack = 10 * tolerance * run.energy_scale;

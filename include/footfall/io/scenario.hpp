@@ -1,6 +1,7 @@
 // A scenario file (TOML) as data. docs/scenario.md is the reference of its keys.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -26,21 +27,25 @@ struct ScenarioProblem {
     std::string setting = {};  ///< Setting::place where a setting is wrong; the line and column are not the file's then
 };
 
-/// Everything that is wrong in a scenario file; what() has a line "FILE:LINE:COLUMN: message" for each problem, or
-/// "PLACE: message" where a setting is wrong.
+/// What is wrong in a scenario file; what() has a line "FILE:LINE:COLUMN: message", or "PLACE: message" where a setting is
+/// wrong, for each of the first twenty problems, and counts the rest.
 class ScenarioError : public InvalidInput {
 public:
-    ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems);
+    ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems, std::size_t more = 0);
 
-    /// At least one: those of settings, then in the order of the file.
+    /// At least one, those of settings first, then in the order of the file; a thousand at most.
     [[nodiscard]] const std::vector<ScenarioProblem>& problems() const noexcept { return problems_; }
+    /// How many problems there are beside those.
+    [[nodiscard]] std::size_t more() const noexcept { return more_; }
 
 private:
     std::vector<ScenarioProblem> problems_;
+    std::size_t more_;
 };
 
-/// Reads a scenario file, as the settings, in their order, make it. Throws ScenarioError; InvalidInput, naming its
-/// place, where a setting cannot be put into the file; std::system_error where the file cannot be read.
+/// Reads a scenario file, as the settings, in their order, make it. Throws ScenarioError; InvalidInput where a setting
+/// cannot be put into the file, naming its place, or the file is larger than 16 MiB; std::system_error where the file
+/// cannot be read.
 [[nodiscard]] Scenario load_scenario(const std::filesystem::path& file, const std::vector<Setting>& settings = {});
 
 /// Likewise from the text of a file; `name` stands for the file in error messages.

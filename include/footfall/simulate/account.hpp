@@ -48,6 +48,7 @@ template <class System>
     const Eigen::Matrix<typename System::S, 4, 1> q = y.template segment<4>(Layout::orientation).matrix();
     shot.body.orientation = frame.to_world(Quaternion<typename System::S>(q));
     const auto contacts = system.contacts(y);
+    shot.contacts.reserve(contacts.size());
     for (int i = 0; i < system.spheres(); ++i) {
         const auto& k = contacts[static_cast<std::size_t>(i)].kinematics;
         const auto& r = contacts[static_cast<std::size_t>(i)].response;

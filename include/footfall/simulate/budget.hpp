@@ -1,5 +1,10 @@
-// The errors that keep a run from its end: a cost above RunOptions::max_evaluations, numbers that overflow.
+// What keeps a run from its end: a cost above RunOptions::max_evaluations, memory above RunOptions::max_memory, numbers
+// that overflow.
 #pragma once
+
+#include <new>
+#include <stdexcept>
+#include <string>
 
 #include "footfall/simulate/run.hpp"
 
@@ -11,6 +16,43 @@ namespace footfall {
 
 /// Throws TooExpensive for a run that has spent its budget at `time` [s].
 [[noreturn]] void stop_for_cost(double time, const RunOptions& options);
+
+/// What is kept for one Snapshot's contacts, beside the Snapshot itself [bytes].
+[[nodiscard]] double contacts_bytes(std::size_t spheres) noexcept;
+
+/// What the implicit method works on where the motion has `size` components [bytes]: square matrices.
+[[nodiscard]] double implicit_bytes(int size) noexcept;
+
+/// How many samples a run keeps that samples every `period` [s] until `end` [s], the first and the last included; 2
+/// where the period is 0.
+[[nodiscard]] double sample_count(double period, double end) noexcept;
+
+/// "1.2 GB"
+[[nodiscard]] std::string bytes_text(double bytes);
+
+/// Throws TooExpensive before a run that would keep `bytes` for its samples.
+[[noreturn]] void refuse_memory(double bytes, std::size_t spheres, const RunOptions& options);
+
+/// Throws TooExpensive for a run that has kept so many events until `time` [s] that the next needs `bytes` in all.
+[[noreturn]] void stop_for_events(double bytes, std::size_t events, double time, const RunOptions& options);
+
+/// Throws TooExpensive for a run that has turned stiff at `time` [s] and needs `bytes` in all for the implicit method.
+[[noreturn]] void stop_for_stiffness(double bytes, std::size_t spheres, double time, const RunOptions& options);
+
+/// Throws TooExpensive for a run that the machine itself has no memory for.
+[[noreturn]] void stop_for_machine();
+
+/// What `work` returns; TooExpensive where max_memory allows more than the machine has.
+template <class Work>
+auto within_memory(const Work& work) {
+    try {
+        return work();
+    } catch (const std::bad_alloc&) {
+        stop_for_machine();
+    } catch (const std::length_error&) {
+        stop_for_machine();
+    }
+}
 
 /// Throws std::runtime_error for a run whose numbers are no longer finite at `time` [s].
 [[noreturn]] void stop_for_overflow(double time);

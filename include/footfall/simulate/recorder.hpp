@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "footfall/simulate/run.hpp"
@@ -10,8 +11,9 @@ namespace footfall {
 
 class Recorder {
 public:
-    Recorder(double sample_period, double end_time) : period_(sample_period), end_(end_time) {}
+    explicit Recorder(RunOptions options) : options_(std::move(options)) {}
 
+    /// Throws TooExpensive where the samples to come would take more than RunOptions::max_memory.
     void begin(Snapshot initial);
     void end(Snapshot last, const Cost& cost);
 
@@ -19,6 +21,7 @@ public:
     [[nodiscard]] double next_sample() const noexcept;
     void sample(Snapshot shot);
 
+    /// Throws TooExpensive where the events take more than RunOptions::max_memory leaves.
     void event(EventKind kind, int sphere, Snapshot shot);
 
     /// A depth and a force that contact `sphere` has reached.
@@ -26,6 +29,9 @@ public:
 
     /// The impact that contact `sphere` is in, or nothing.
     [[nodiscard]] const Impact* impact(int sphere) const noexcept;
+
+    /// What is kept: all samples, those to come included, and the events so far [bytes].
+    [[nodiscard]] double bytes() const noexcept;
 
     /// The account after a step.
     void account(const Ledger& ledger) noexcept;
@@ -35,7 +41,8 @@ public:
 private:
     [[nodiscard]] Impact* open_impact(int sphere) noexcept;
 
-    double period_, end_;
+    RunOptions options_;
+    double samples_bytes_ = 0;
     std::int64_t sampled_ = 0;  // samples taken so far
     std::vector<int> open_;     // index of each sphere's impact in run_.impacts, or -1
     std::vector<double> stuck_since_;

@@ -103,7 +103,7 @@ struct Run {
     }
 };
 
-/// The run would need, or has needed, more evaluations than RunOptions::max_evaluations allows.
+/// The run would need, or has needed, more evaluations or memory than RunOptions::max_evaluations or max_memory allows.
 class TooExpensive : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

@@ -18,6 +18,9 @@ struct RunOptions {
     /// A run that would need more evaluations of the equations of motion is refused before it starts where
     /// the estimate says so, and stopped with an error where only the run itself shows it.
     double max_evaluations = 1e8;
+    /// What a run may keep in memory [bytes], >= 1: its samples and its events, each with every sphere's contact, and
+    /// what the implicit method works on. Checked likewise.
+    double max_memory = 4e9;
     /// Called now and then with the time reached [s]; returning false ends the run with Interrupted.
     std::function<bool(double)> progress;
 };

@@ -34,7 +34,7 @@ public:
           frame_(simulation.ground.normal),
           system_(simulation.body, simulation.ground, simulation.gravity, std::move(laws)),
           scales_(system_, simulation.body, simulation.gravity, simulation.options.tolerance),
-          recorder_(simulation.options.sample_period, simulation.options.end_time),
+          recorder_(simulation.options),
           end_time_(simulation.options.end_time),
           dual_system_(system_.template cast<Direction>()),
           method_({this}, {this}, system_.layout().motion_size()) {
@@ -188,6 +188,9 @@ private:
     void differentiate(const Vector& y, Matrix& J) {
         using DualVector = typename DualSystem::StateVector;
         const int n = system_.layout().motion_size();
+        if (const double needed = recorder_.bytes() + implicit_bytes(n); needed > options_.max_memory)
+            stop_for_stiffness(needed, index(system_.spheres()), static_cast<double>(y_[system_.layout().time()]),
+                               options_);
         for (int i = 0; i < system_.spheres(); ++i) {
             dual_system_.set_phase(i, system_.phase(i));
             dual_system_.set_drags(i, system_.drags(i));

@@ -117,6 +117,7 @@ struct Rig {
     double sample_period = 0;  ///< [s], > 0; 0: end_time / 1000
     double tolerance = 1e-10;  ///< relative error of a step, from 1e-14 to 1e-3
     double max_evaluations = 1e8;
+    double max_memory = 4e9;  ///< what the samples and events of one run may take [bytes], >= 1
     Press press = Press::load;
     Path pressing;  ///< [m] or [N], as `press` says
     Drag drag = Drag::displacement;
