@@ -58,6 +58,8 @@ double Recorder::bytes() const noexcept {
 void Recorder::event(EventKind kind, int sphere, Snapshot shot) {
     if (const double needed = bytes(); needed > options_.max_memory)
         stop_for_events(needed, run_.events.size(), shot.time, options_);
+    // What happens at the very start of a step may come out by a rounding before what began it.
+    shot.time = std::max(shot.time, run_.events.empty() ? run_.initial.time : run_.events.back().time);
     const auto i = static_cast<std::size_t>(sphere);
     const double time = shot.time;
     Impact* impact = open_impact(sphere);
