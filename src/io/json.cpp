@@ -21,29 +21,19 @@ Json final_state(const Snapshot& state) {
             {"orientation", array(state.body.orientation)}};
 }
 
-Json event_list(const std::vector<Event>& events) {
-    Json list = Json::array();
-    for (const Event& event : events) {
-        list.push_back({{"time", event.time}, {"kind", name_of(event.kind)}, {"sphere", event.sphere}});
-    }
-    return list;
-}
+Json of(const Event& event) { return {{"time", event.time}, {"kind", name_of(event.kind)}, {"sphere", event.sphere}}; }
 
-Json impact_list(const std::vector<Impact>& impacts) {
-    Json list = Json::array();
-    for (const Impact& impact : impacts) {
-        list.push_back({{"sphere", impact.sphere},
-                        {"touchdown", impact.touchdown},
-                        {"separation", or_null(impact.separation)},
-                        {"recovered", or_null(impact.recovered)},
-                        {"speed_in", impact.speed_in},
-                        {"speed_out", or_null(impact.speed_out)},
-                        {"restitution", or_null(impact.restitution())},
-                        {"stick_time", impact.stick_time},
-                        {"peak_normal_force", impact.peak_normal_force},
-                        {"peak_indentation", impact.peak_indentation}});
-    }
-    return list;
+Json of(const Impact& impact) {
+    return {{"sphere", impact.sphere},
+            {"touchdown", impact.touchdown},
+            {"separation", or_null(impact.separation)},
+            {"recovered", or_null(impact.recovered)},
+            {"speed_in", impact.speed_in},
+            {"speed_out", or_null(impact.speed_out)},
+            {"restitution", or_null(impact.restitution())},
+            {"peak_normal_force", impact.peak_normal_force},
+            {"peak_indentation", impact.peak_indentation},
+            {"stick_time", impact.stick_time}};
 }
 
 Json energy(const Run& run) {
@@ -63,18 +53,45 @@ Json energy(const Run& run) {
             {"max_residual", run.max_residual}};
 }
 
+constexpr int indent = 2;
+
+/// The JSON as it stands inside `depth` objects or lists, its first line without an indent.
+std::string inside(const Json& json, std::size_t depth) {
+    const std::string blanks(depth * indent, ' ');
+    std::string text;
+    for (const char c : json.dump(indent)) {
+        text += c;
+        if (c == '\n') text += blanks;
+    }
+    return text;
+}
+
+/// A list, one element after the other: as a tree it would take several times the memory of the run.
+template <class Element>
+void write_list(std::string& text, const std::vector<Element>& list) {
+    text += '[';
+    for (const Element& element : list) {
+        if (&element != list.data()) text += ',';
+        text += "\n    " + inside(of(element), 2);
+    }
+    text += list.empty() ? "]" : "\n  ]";
+}
+
 }  // namespace
 
 std::string to_json(const Scenario& /*scenario*/, const Run& run) {
-    const Json json{{"final", final_state(run.final)},
-                    {"events", event_list(run.events)},
-                    {"impacts", impact_list(run.impacts)},
-                    {"energy", energy(run)},
-                    {"steps", run.cost.steps},
+    std::string text = "{\n  \"final\": " + inside(final_state(run.final), 1);
+    text += ",\n  \"events\": ";
+    write_list(text, run.events);
+    text += ",\n  \"impacts\": ";
+    write_list(text, run.impacts);
+    text += ",\n  \"energy\": " + inside(energy(run), 1);
+    const Json rest{{"steps", run.cost.steps},
                     {"evaluations", run.cost.evaluations},
                     {"wall_seconds", run.cost.wall_seconds},
                     {"version", version}};
-    return json.dump(2);
+    // The rest of the object, without the brace that opens it.
+    return text + ',' + rest.dump(indent).substr(1);
 }
 
 }  // namespace footfall

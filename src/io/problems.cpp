@@ -23,6 +23,42 @@ std::string_view cut(std::string_view text, std::size_t size) {
     return text.substr(0, size);
 }
 
+/// How many bytes the character at the start of `text` has, in UTF-8; 0 where there is none.
+std::size_t character_size(std::string_view text) {
+    const auto first = static_cast<unsigned char>(text.front());
+    const std::size_t size = first < 0x80   ? 1
+                             : first < 0xC2 ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                             : first < 0xF5 ? 4
+                                            : 0;
+    if (size == 0 || size > text.size()) return 0;
+    for (std::size_t i = 1; i < size; ++i)
+        if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U) return 0;
+    return size;
+}
+
+/// The text as one line of UTF-8: line breaks, control characters and bytes that are no character become escapes.
+std::string printable(std::string_view text) {
+    std::string line;
+    while (!text.empty()) {
+        const std::size_t size = character_size(text);
+        const auto code = static_cast<unsigned char>(text.front());
+        constexpr unsigned char first_printable = 0x20, delete_character = 0x7F;
+        if (code == '\n') {
+            line += "\\n";
+        } else if (code == '\t') {
+            line += "\\t";
+        } else if (size == 0 || code < first_printable || code == delete_character) {
+            line += fmt::format("\\x{:02x}", code);
+        } else {
+            line += text.substr(0, size);
+        }
+        text.remove_prefix(std::max(size, std::size_t{1}));
+    }
+    return line;
+}
+
 std::string as_text(const std::string& file, const std::vector<ScenarioProblem>& problems, std::size_t more) {
     std::string text;
     const std::size_t in_full = std::min(problems.size(), most_in_full);
@@ -47,30 +83,17 @@ namespace io {
 
 std::string shown(std::string_view text) {
     const std::string_view kept = cut(text, longest_piece);
-    std::string line;
-    for (const char c : kept) {
-        const auto code = static_cast<unsigned char>(c);
-        constexpr unsigned char first_printable = 0x20, delete_character = 0x7F;
-        if (c == '\n') {
-            line += "\\n";
-        } else if (c == '\t') {
-            line += "\\t";
-        } else if (code < first_printable || code == delete_character) {
-            line += fmt::format("\\u{:04x}", code);
-        } else {
-            line += c;
-        }
-    }
-    return kept.size() < text.size() ? line + "..." : line;
+    return kept.size() < text.size() ? printable(kept) + "..." : printable(kept);
 }
 
-void Problems::add(const Position& at, std::string message) {
+void Problems::add(const Position& at, std::string_view message) {
     if (full()) {
         ++more_;
         return;
     }
-    if (message.size() > longest_message) message = std::string(cut(message, longest_message)) + "...";
-    problems_.push_back({at.line, at.column, std::move(message), is_setting(at) ? at.source : ""});
+    std::string kept = printable(cut(message, longest_message));
+    if (message.size() > longest_message) kept += "...";
+    problems_.push_back({at.line, at.column, std::move(kept), is_setting(at) ? at.source : ""});
 }
 
 bool Problems::full() const noexcept { return problems_.size() >= most_kept; }

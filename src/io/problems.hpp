@@ -27,7 +27,8 @@ class Problems {
 public:
     explicit Problems(std::string file) : file_(std::move(file)) {}
 
-    void add(const Position& at, std::string message);
+    /// A message that is long is cut; what cannot be printed in it becomes an escape.
+    void add(const Position& at, std::string_view message);
     /// `message()` is only made where it is kept.
     template <class Message>
         requires std::is_invocable_r_v<std::string, Message>
@@ -35,7 +36,7 @@ public:
         if (full()) {
             ++more_;
         } else {
-            add(at, std::string(message()));
+            add(at, std::string_view(std::string(message())));
         }
     }
     [[nodiscard]] bool empty() const noexcept { return problems_.empty(); }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <mutex>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -13,6 +14,7 @@
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glog/logging.h>
 
 namespace footfall {
 namespace {
@@ -206,6 +208,27 @@ private:
     mutable std::exception_ptr thrown_;
 };
 
+/// While one of these lives, Ceres's log says nothing: it goes to standard error by itself, in words that no user of
+/// this library knows. What it would tell of a start that fails is told by the count of starts that agree.
+class SilentLog {
+public:
+    SilentLog() {
+        const std::lock_guard lock(mutex);
+        if (alive++ == 0) before = std::exchange(FLAGS_minloglevel, google::GLOG_FATAL);
+    }
+    ~SilentLog() {
+        const std::lock_guard lock(mutex);
+        if (--alive == 0) FLAGS_minloglevel = before;
+    }
+    SilentLog(const SilentLog&) = delete;
+    SilentLog& operator=(const SilentLog&) = delete;
+
+private:
+    // The level is one of the process; fits may run in several threads of it.
+    static inline std::mutex mutex;
+    static inline int alive = 0, before = 0;
+};
+
 // The search ----------------------------------------------------------------------------------------------------------
 
 struct Minimum {
@@ -228,6 +251,7 @@ std::vector<int> at_bounds(const Model& model, const Vector& coordinates) {
 
 std::optional<Minimum> minimise_holding(const Model& model, Vector start, const std::vector<int>& held, Loss loss,
                                         double noise, int max_iterations) {
+    const SilentLog silent;
     ceres::Problem problem;
     auto* cost = new Cost(model, loss, noise);  // the problem's own
     problem.AddResidualBlock(cost, nullptr, start.data());
@@ -262,7 +286,7 @@ std::optional<Minimum> minimise_holding(const Model& model, Vector start, const 
 }
 
 std::optional<Minimum> minimise(const Model& model, const Vector& start, Loss loss, double noise, int max_iterations) {
-    // Ceres would complain on standard error.
+    // Where the model fails at its start, there is nothing to search.
     Vector r;
     Matrix J;
     if (!model.jacobian(model.arguments(start.data()), r, J)) return std::nullopt;

@@ -29,8 +29,9 @@ TEST_F(OutputJson, HasTheDocumentedFieldsAndNoOthers) {
               (Names{"final", "events", "impacts", "energy", "steps", "evaluations", "wall_seconds", "version"}));
     EXPECT_EQ(keys(json["final"]), (Names{"time", "position", "velocity", "angular_velocity", "orientation"}));
     EXPECT_EQ(keys(json["events"][0]), (Names{"time", "kind", "sphere"}));
-    EXPECT_EQ(keys(json["impacts"][0]), (Names{"sphere", "touchdown", "separation", "recovered", "speed_in",
-                                               "speed_out", "restitution", "peak_normal_force", "peak_indentation"}));
+    EXPECT_EQ(keys(json["impacts"][0]),
+              (Names{"sphere", "touchdown", "separation", "recovered", "speed_in", "speed_out", "restitution",
+                     "peak_normal_force", "peak_indentation", "stick_time"}));
     EXPECT_EQ(keys(json["energy"]), (Names{"initial", "kinetic", "potential", "normal_spring", "tangential_spring",
                                            "normal_damper", "tangential_damper", "clutch", "stiffness_change",
                                            "tangential_spring_paper", "residual", "max_residual"}));
@@ -68,6 +69,21 @@ TEST_F(OutputJson, NumbersReadBackExactly) {
     EXPECT_EQ(json["evaluations"], 5'000'000'000);
     EXPECT_EQ(json["wall_seconds"].get<double>(), 0.0125);
     EXPECT_EQ(json["version"], version);
+}
+
+// Programs compare the text of two runs.
+TEST_F(OutputJson, IsIndentedByTwoLikeAnyOtherJsonAndEndsWithItsBrace) {
+    EXPECT_EQ(to_json(two_sphere_scenario(), run), json.dump(2));
+    run.events.clear();
+    run.impacts.clear();
+    const std::string empty = to_json(two_sphere_scenario(), run);
+    EXPECT_EQ(empty, Json::parse(empty).dump(2));
+}
+
+TEST_F(OutputJson, SaysHowLongEachImpactStuck) {
+    EXPECT_EQ(json["impacts"][0]["stick_time"].get<double>(), run.impacts[0].stick_time);
+    EXPECT_EQ(json["impacts"][1]["stick_time"].get<double>(), run.impacts[1].stick_time);
+    EXPECT_GT(run.impacts[0].stick_time, 0);
 }
 
 TEST_F(OutputJson, EventsHaveTheirNames) {

@@ -241,13 +241,6 @@ TEST(ScenarioErrors, BeginWithFileLineAndColumn) {
     }
 }
 
-TEST(ScenarioErrors, SyntaxHasItsPlace) {
-    expect_problem(changed({{3, "end = 1.2.3"}}), 3, 10, {"expected"});
-    expect_problem(changed({{3, "end = 1\nend = 2"}}), 4, 7, {"cannot redefine"});
-    expect_problem(changed({{2, "[time"}}), 2, 6, {"expected ']'"});
-    expect_problem(changed({{2, "["}}), 2, 2, {"expected bare key"});
-}
-
 TEST(ScenarioErrors, MisspeltKeyNamesTheNearestAndTheValidOnes) {
     expect_problem(changed({{20, "stifness = 8.5e6"}}), 20, 1,
                    {"contact.normal: unknown key 'stifness'", "did you mean 'stiffness'?",
@@ -327,11 +320,6 @@ TEST(ScenarioErrors, RangesAreKept) {
     expect_problem(changed({{26, "coefficient = -0.1"}}), 26, 15, {"coefficient: -0.1 is not allowed: must be >= 0"});
     expect_problem(changed({{8, "normal = [0, 0, 0]"}}), 8, 10, {"ground.normal: a zero vector is not allowed"});
     expect_problem(changed({{8, "slope = '91 deg'"}}), 8, 9, {"ground.slope"});
-}
-
-TEST(ScenarioErrors, TooManySamplesAreRefused) {
-    expect_problem(changed({{4, "sample = 1e-9"}}), 4, 10, {"time.sample", "must be 0, or at least 2e-07 s"});
-    EXPECT_NO_THROW((void)simulation_of(changed({{4, "sample = 0"}})));
 }
 
 TEST(ScenarioErrors, UnknownLawNamesTheNearestAndAll) {
