@@ -4,6 +4,8 @@ BUILD ?= build
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 SOAK ?= 100000
+FUZZ ?= 5000
+SEED ?= 2010
 CLANG_FORMAT ?= clang-format-16
 CLANG_TIDY ?= clang-tidy-16
 
@@ -21,7 +23,7 @@ help:  ## This list
 	@echo
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-14s%s\n", $$1, $$2}' Makefile
 	@echo
-	@echo "Variables: BUILD=$(BUILD) PREFIX=$(PREFIX) JOBS=$(JOBS) SOAK=$(SOAK)"
+	@echo "Variables: BUILD=$(BUILD) PREFIX=$(PREFIX) JOBS=$(JOBS) SOAK=$(SOAK) FUZZ=$(FUZZ) SEED=$(SEED)"
 
 deps:  ## Install the Debian packages that are missing
 	@scripts/install-deps.sh
@@ -67,6 +69,10 @@ bench: build-all  ## Measure against ARKODE and plain loops; prints a table of r
 
 soak: build-all  ## Run SOAK random scenarios (100000) and check each
 	$(BUILD)/bench/soak --scenarios $(SOAK)
+
+.PHONY: fuzz
+fuzz: build  ## Feed the command line FUZZ broken and odd inputs (5000), drawn by SEED
+	@scripts/fuzz.py --footfall $(BUILD)/footfall --inputs $(FUZZ) --seed $(SEED) --jobs $(JOBS) --keep $(BUILD)/fuzz
 
 fit-coverage: build-all  ## How often a fit's intervals hold the truth (about a minute)
 	$(BUILD)/bench/fit_coverage

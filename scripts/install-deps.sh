@@ -56,9 +56,35 @@ else
     exit 1
 fi
 
+# A machine that has just started installs updates of its own, and apt-get then fails at once where it needs the lock
+# that they hold. It is run again until they are done.
+wait_limit=${FOOTFALL_APT_WAIT:-600}  # seconds
+pause=5
+errors=$(mktemp)
+trap 'rm -f "$errors"' EXIT
+waited=0
+apt() {
+    while ! $sudo env LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=0 "$@" 2>"$errors"; do
+        lock=$(sed -n 's/^E: Could not get lock \([^ ]*[^ .]\).*/\1/p' "$errors" | head -n 1)
+        holder=$(sed -n 's/^E: Could not get lock .*held by process \(.*\)$/, held by process \1/p' "$errors" | head -n 1)
+        if [ -z "$lock" ]; then
+            cat "$errors" >&2
+            return 1
+        fi
+        if [ "$waited" -ge "$wait_limit" ]; then
+            echo "install-deps.sh: another program uses apt, and has not ended in $wait_limit s: $lock$holder" >&2
+            return 1
+        fi
+        [ "$waited" -gt 0 ] || echo "Another program uses apt; waiting for it, $wait_limit s at most: $lock$holder"
+        sleep "$pause"
+        waited=$((waited + pause))
+    done
+    cat "$errors" >&2
+}
+
 echo "Installing:$missing"
-export DEBIAN_FRONTEND=noninteractive
-if ! { $sudo apt-get update -q && $sudo apt-get install -q -y --no-install-recommends $missing; }; then
+# shellcheck disable=SC2086  # one word for each package
+if ! { apt update -q && apt install -q -y --no-install-recommends $missing; }; then
     echo "install-deps.sh: apt-get failed. Missing:$missing" >&2
     exit 1
 fi

@@ -10,9 +10,9 @@
 #include "commands.hpp"
 #include "footfall/law/parameter.hpp"
 #include "footfall/simulate/run.hpp"
-#include "footfall/version.hpp"
 #include "terminal.hpp"
 #include "usage.hpp"
+#include "version_line.hpp"
 
 namespace footfall::cli {
 namespace {
@@ -38,11 +38,10 @@ struct CommandLine {
     CommandLine() {
         app.require_subcommand(0, 1);  // none at all gets a message of our own
         app.formatter(help_formatter());
-        const std::string version_line = fmt::format("footfall {}", version);
-        app.set_version_flag("--version", version_line, "Print the version and exit");
+        app.set_version_flag("--version", version_line(), "Print the version and exit");
         for (const auto add : commands) {
             CLI::App* subcommand = add(app, command);
-            subcommand->set_version_flag("--version", version_line, "Print the version and exit");
+            subcommand->set_version_flag("--version", version_line(), "Print the version and exit");
             const std::string examples = subcommand->get_footer();
             subcommand->footer(examples.empty() ? exit_codes : examples + "\n" + exit_codes);
         }

@@ -128,7 +128,13 @@ Approach approach_of(const ObliqueArguments& arguments, double theta, double ome
 std::vector<Approach> approaches_of(const ObliqueArguments& arguments) {
     std::vector<Approach> approaches;
     const std::vector<double> angles = read_list("--angles", arguments.angles, angle);
-    for (const double omega : read_list("--spins", arguments.spins, spin)) {
+    const std::vector<double> spins = read_list("--spins", arguments.spins, spin);
+    constexpr std::size_t most = 1'000'000;  // each is a run of its own
+    if (angles.size() > most / spins.size()) {
+        throw InvalidInput(fmt::format("--angles, --spins: {} angles under {} spins are more than {} impacts",
+                                       angles.size(), spins.size(), most));
+    }
+    for (const double omega : spins) {
         for (const double theta : angles) approaches.push_back(approach_of(arguments, theta, omega));
     }
     return approaches;

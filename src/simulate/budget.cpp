@@ -73,6 +73,12 @@ void stop_for_machine() {
         "or lower max_memory to what the machine has");
 }
 
+void stop_for_search() {
+    throw std::runtime_error(
+        "the run's numbers cannot be told apart where an event is looked for: its parameters are too far from each "
+        "other for double precision");
+}
+
 void stop_for_overflow(double time) {
     throw std::runtime_error(fmt::format(
         "the run's numbers overflow at t = {:g} s: its parameters are too far from each other for double precision",

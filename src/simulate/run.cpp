@@ -35,7 +35,7 @@ Run run_by_laws(const Simulation& simulation) {
 
 Run run(const Simulation& simulation) {
     check(simulation);
-    return within_memory([&] { return run_by_laws(simulation); });
+    return in_own_words([&] { return run_by_laws(simulation); });
 }
 
 }  // namespace footfall

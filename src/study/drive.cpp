@@ -489,7 +489,7 @@ double RigEnergy::magnitude() const noexcept {
 Drive drive(const Rig& rig, const ContactParameters& laws) {
     check(rig);
     check(laws, "contact");
-    return within_memory([&] { return Driver(rig, laws).run(); });
+    return in_own_words([&] { return Driver(rig, laws).run(); });
 }
 
 }  // namespace footfall

@@ -189,7 +189,9 @@ namespace {
 
 void check_speeds(double from, double to, int count) {
     check_range(from, to);
-    if (count < 2) throw InvalidInput(fmt::format("the number of speeds is {}; it must be 2 or more", count));
+    constexpr int most = 1'000'000;  // each is an impact to simulate
+    if (count < 2 || count > most)
+        throw InvalidInput(fmt::format("the number of speeds is {}; it must be from 2 to {}", count, most));
 }
 
 }  // namespace

@@ -171,6 +171,12 @@ double Timeline::static_root_depth(double load) const {
     if (load == last_load_) return last_root_depth_;
     const auto missing = [&](double log_s) { return normal_.force(std::exp(log_s), 0.0).elastic - load; };
     double low = -100, high = 50;
+    if (!(missing(low) < 0 && missing(high) > 0)) {
+        throw InvalidInput(fmt::format(
+            "a load of {:.6g} N: the normal law's spring carries it at no depth from {:.0e} m to {:.0e} m; the load or "
+            "the stiffness has the wrong size",
+            load, std::exp(2 * low), std::exp(2 * high)));
+    }
     std::uintmax_t iterations = 200;
     const auto r =
         boost::math::tools::toms748_solve(missing, low, high, boost::math::tools::eps_tolerance<double>(), iterations);

@@ -108,14 +108,34 @@ protected:
 };
 
 TEST_F(Cli, PrintsItsVersionEverywhere) {
-    const std::string line = "footfall " + std::string(version) + "\n";
+    // The commit is that of the clone, if there is one.
+    const std::regex line("footfall " + std::string(version) + R"(( \([0-9a-f]{9}\+?\))?\n)");
     for (const Words& words :
          {Words{"--version"}, {"run", "--version"}, {"laws", "--version"}, {"schema", "--version"}}) {
         const Result result = footfall(words);
         EXPECT_EQ(result.exit_code, 0);
-        EXPECT_EQ(result.out, line);
+        EXPECT_TRUE(std::regex_match(result.out, line)) << result.out;
         EXPECT_EQ(result.err, "");
     }
+}
+
+// A run of a machine's memory is refused as any other that costs too much, and a deep key does not end the program.
+TEST_F(Cli, InputsWithoutMeasureEndWithAMessage) {
+    const std::string dense = folder.write("dense.toml", scenario("end = 1\nsample = 1e-12\n")).string();
+    const Result refused = footfall({"run", dense, "--json"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_TRUE(contains(refused.err, dense + ": the run would keep about")) << refused.err;
+    EXPECT_TRUE(contains(refused.err, "raise max_memory")) << refused.err;
+
+    std::string deep = "a";
+    for (int i = 0; i < 40'000; ++i) deep += ".a";
+    const Result nested = footfall({"run", folder.write("deep.toml", deep + " = 1\n").string()});
+    EXPECT_EQ(nested.exit_code, 2);
+    EXPECT_TRUE(contains(nested.err, "deep.toml:1:66: nested deeper")) << nested.err;
+
+    const Result endless = footfall({"run", "/dev/zero"});
+    EXPECT_EQ(endless.exit_code, 2);
+    EXPECT_TRUE(contains(endless.err, "16 MiB are the most")) << endless.err;
 }
 
 TEST_F(Cli, HelpsEverywhereAndDocumentsItsExitCodes) {

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <boost/math/policies/error_handling.hpp>
+
 #include "footfall/simulate/run.hpp"
 
 namespace footfall {
@@ -42,15 +44,23 @@ namespace footfall {
 /// Throws TooExpensive for a run that the machine itself has no memory for.
 [[noreturn]] void stop_for_machine();
 
-/// What `work` returns; TooExpensive where max_memory allows more than the machine has.
+/// Throws std::runtime_error for a run in which the search for an event or a peak met numbers that are none.
+[[noreturn]] void stop_for_search();
+
+/// What `work`, a run, returns. TooExpensive where max_memory allows more than the machine has, and std::runtime_error
+/// where the searches for zeros fail, in words that are ours.
 template <class Work>
-auto within_memory(const Work& work) {
+auto in_own_words(const Work& work) {
     try {
         return work();
     } catch (const std::bad_alloc&) {
         stop_for_machine();
     } catch (const std::length_error&) {
         stop_for_machine();
+    } catch (const boost::math::evaluation_error&) {
+        stop_for_search();
+    } catch (const std::domain_error&) {
+        stop_for_search();
     }
 }
 

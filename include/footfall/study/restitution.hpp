@@ -58,7 +58,7 @@ struct LogLinearRange {
 [[nodiscard]] std::optional<LogLinearRange> log_linear_range(const NormalLaw& law, double mass, double from, double to,
                                                              double deviation);
 
-/// `count` speeds [m/s] from `from` to `to`, both included, 0 < from < to, count >= 2.
+/// `count` speeds [m/s] from `from` to `to`, both included, 0 < from < to, count from 2 to 1e6.
 [[nodiscard]] std::vector<double> linear_speeds(double from, double to, int count);
 [[nodiscard]] std::vector<double> logarithmic_speeds(double from, double to, int count);
 
