@@ -8,7 +8,7 @@ huge, tiny, not finite, of another type or unit; keys dropped, repeated, renamed
 cut, with other bytes. Command lines get odd values. Whatever comes in:
 
     - the program ends by itself, in time and memory, by no signal, with exit code 0, 1 or 2;
-    - what it prints as JSON is JSON, and every number in it finite;
+    - what it prints as JSON is JSON, every number in it finite, the events in the order of time;
     - what it says of an error is in its own words, not a library's, and names the file that is wrong;
     - text is UTF-8.
 
@@ -26,6 +26,7 @@ import random
 import re
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -406,14 +407,24 @@ def finite(value):
     return True
 
 
+def in_order(document):
+    """Whether all events are in the order of time."""
+    if not isinstance(document, dict):
+        return True
+    times = [event["time"] for event in document.get("events", [])]
+    return times == sorted(times) and all(map(in_order, document.get("runs", [])))
+
+
 def not_json(word):
     raise ValueError(f"{word} is not JSON")
 
 
-def wrong_with(made, done, seconds, limit):
+def wrong_with(made, done, limit):
     """What a finished command did that it must not; None where it did nothing of the kind."""
     if done is None:
-        return f"still running after {limit} s"
+        return f"does nothing and does not end in {20 * limit} s"
+    if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+        return f"still at work after {limit} s"
     if done.returncode not in (0, 1, 2):
         return f"exit code {done.returncode}"
     try:
@@ -437,6 +448,8 @@ def wrong_with(made, done, seconds, limit):
             return f"prints no JSON: {error}"
         if not finite(document):
             return "prints a number that is not finite"
+        if made.kind in ("run", "drive") and not in_order(document):
+            return "prints events that are not in the order of time"
     if done.returncode != 0 and out.strip():
         return "prints results and fails"
     return None
@@ -450,14 +463,17 @@ def one(number, seed, footfall, sources, scratch, limit):
     made = make(rng, sources, folder)
     started = time.monotonic()
     try:
-        done = subprocess.run([footfall, *made.arguments], capture_output=True, stdin=subprocess.DEVNULL, timeout=limit, cwd=folder,
-                              check=False)
+        # Processor time is what counts; on a busy machine the clock runs on meanwhile.
+        done = subprocess.run(
+            [footfall, *made.arguments], capture_output=True, stdin=subprocess.DEVNULL, timeout=20 * limit, cwd=folder, check=False,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5)),
+        )
     except subprocess.TimeoutExpired:
         done = None
     except (ValueError, OSError):  # no command line at all: a zero byte, too long
         shutil.rmtree(folder)
         return number, made, None, None, 0.0
-    return number, made, done, wrong_with(made, done, time.monotonic() - started, limit), time.monotonic() - started
+    return number, made, done, wrong_with(made, done, limit), time.monotonic() - started
 
 
 def keep(keep_in, seed, number, made, done, wrong):
@@ -477,7 +493,7 @@ def main():
     parser.add_argument("--first", type=int, default=0, help="number of the first input")
     parser.add_argument("--seed", default="2010")
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--seconds", type=float, default=30, help="that an input may take")
+    parser.add_argument("--seconds", type=int, default=30, help="of processor time that an input may take")
     parser.add_argument("--memory", type=float, default=3, help="that a command may have, GB; 0: any")
     parser.add_argument("--keep", type=pathlib.Path, default=ROOT / "build/fuzz", help="where inputs that fail are left")
     arguments = parser.parse_args()
@@ -493,8 +509,9 @@ def main():
     with tempfile.TemporaryDirectory() as name, concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         scratch = pathlib.Path(name)
         numbers = range(arguments.first, arguments.first + arguments.inputs)
-        work = (pool.map(lambda n: one(n, arguments.seed, footfall, sources, scratch, arguments.seconds), numbers))
-        for number, made, done, wrong, seconds in work:
+        for number, made, done, wrong, seconds in pool.map(
+            lambda n: one(n, arguments.seed, footfall, sources, scratch, arguments.seconds), numbers
+        ):
             code = done.returncode if done else "none"
             counts[made.kind][code] += 1
             slowest = max(slowest, (seconds, number))

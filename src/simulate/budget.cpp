@@ -38,6 +38,13 @@ double implicit_bytes(int size) noexcept {
 
 double sample_count(double period, double end) noexcept { return period > 0 ? std::floor(end / period) + 2 : 2; }
 
+double kept_bytes(const Run& run) noexcept {
+    const double contacts = contacts_bytes(run.initial.contacts.size());
+    return static_cast<double>(run.samples.size()) * (sizeof(Snapshot) + contacts) +
+           static_cast<double>(run.events.size()) * (sizeof(Event) + contacts) +
+           static_cast<double>(run.impacts.size()) * sizeof(Impact);
+}
+
 std::string bytes_text(double bytes) {
     constexpr std::array units{"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
     std::size_t unit = 0;

@@ -9,6 +9,7 @@
 
 #include "footfall/law/any_normal.hpp"
 #include "footfall/law/any_rate_friction.hpp"
+#include "footfall/simulate/budget.hpp"
 #include "footfall/simulate/run.hpp"
 #include "footfall/simulate/simulator.hpp"
 
@@ -20,12 +21,14 @@ template <class RunOnce>
 Run run_to_tolerance(Simulation simulation, RunOnce&& run_once) {
     constexpr double allowed = 30;      // times the tolerance, for the ledger's residual
     constexpr double tightest = 1e-13;  // below, rounding decides
-    const double wanted = simulation.options.tolerance;
+    const double wanted = simulation.options.tolerance, max_memory = simulation.options.max_memory;
     Run run = run_once(simulation);
     Cost spent = run.cost;
     while (run.max_residual > allowed * wanted && simulation.options.tolerance > tightest) {
         simulation.options.tolerance = std::max(1e-2 * simulation.options.tolerance, 1e-14);
-        Run again = run_once(simulation);
+        // The first is kept meanwhile, as the second may turn out no better.
+        simulation.options.max_memory = std::max(max_memory - kept_bytes(run), 1.0);
+        Run again = as_second_attempt([&] { return run_once(simulation); });
         spent += again.cost;
         if (again.max_residual < run.max_residual) run = std::move(again);
     }

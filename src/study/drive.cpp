@@ -23,10 +23,10 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-// A sample is kept, becomes a row of drive_table, and is written as text: as JSON, a number takes some 25 characters,
+// A sample is kept, becomes a row of drive_table, and is written as text: as JSON, a number takes some 40 characters,
 // and the text is there twice before it is printed.
 constexpr double columns_of_table = 28;
-constexpr double sample_bytes = sizeof(RigState) + columns_of_table * (sizeof(double) + 2 * 25);
+constexpr double sample_bytes = sizeof(RigState) + columns_of_table * (sizeof(double) + 2 * 40);
 constexpr double event_bytes = 2 * sizeof(RigEvent);  // a full list moves to a larger place
 
 class Driver {

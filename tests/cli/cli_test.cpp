@@ -3,6 +3,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <regex>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -133,9 +134,9 @@ TEST_F(Cli, InputsWithoutMeasureEndWithAMessage) {
     EXPECT_EQ(nested.exit_code, 2);
     EXPECT_TRUE(contains(nested.err, "deep.toml:1:66: nested deeper")) << nested.err;
 
-    const Result endless = footfall({"run", "/dev/zero"});
-    EXPECT_EQ(endless.exit_code, 2);
-    EXPECT_TRUE(contains(endless.err, "16 MiB are the most")) << endless.err;
+    const Result zeros = footfall({"run", "/dev/zero"});
+    EXPECT_EQ(zeros.exit_code, 2);
+    EXPECT_TRUE(contains(zeros.err, "16 MiB are the most")) << zeros.err;
 }
 
 TEST_F(Cli, HelpsEverywhereAndDocumentsItsExitCodes) {

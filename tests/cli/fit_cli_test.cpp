@@ -45,6 +45,42 @@ TEST_F(FitCli, JsonIsAllThereIsAndHasTheTruthInItsIntervals) {
     EXPECT_GT(json["laws"][1]["aicc_difference"].get<double>(), 100);
 }
 
+// One of the starts fails, of which the solver had a log of its own.
+TEST_F(FitCli, ASearchThatFailsOnItsWayPrintsNoWordsOfTheSolver) {
+    const std::string table =
+        "speed [m/s],restitution\n"
+        "3.571134,0.712525\n"
+        "3.571134,0.701646\n"
+        "3.571134,0.702742\n"
+        "3.571134,0.709279\n"
+        "3.571134,0.713604\n"
+        "3.284966,0.719848\n"
+        "3.284966,0.716050\n"
+        "3.284966,0.726135\n"
+        "3.284966,0.732369\n"
+        "3.284966,0.719848\n"
+        "2.971363,0.745356\n"
+        "2.971363,0.739369\n"
+        "2.971363,0.742369\n"
+        "2.971363,0.751295\n"
+        "2.971363,0.740870\n"
+        "2.620496,0.746420\n"
+        "2.620496,0.744504\n"
+        "2.620496,0.736788\n"
+        "2.620496,0.744504\n"
+        "2.620496,0.761577\n"
+        "2.214723,0.698570\n"
+        "2.214723,0.721110\n"
+        "2.214723,0.707107\n"
+        "2.214723,0.726636\n"
+        "2.214723,0.721110\n";
+    const Result result = fit(folder.write("table.csv", table).string() +
+                              " --mass 58g --normal falcon:stiffness=1e6,damping=?,exponent=?");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, "");
+    EXPECT_TRUE(contains(result.out, "3 of 4 starts came to this minimum")) << result.out;
+}
+
 TEST_F(FitCli, SaysWhatRestitutionAloneCanTell) {
     const Result result = fit(data + "restitution.csv --mass '154 g'" + paper);
     EXPECT_EQ(result.exit_code, 0) << result.err;

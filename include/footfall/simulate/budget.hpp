@@ -29,6 +29,9 @@ namespace footfall {
 /// where the period is 0.
 [[nodiscard]] double sample_count(double period, double end) noexcept;
 
+/// What a finished run keeps [bytes].
+[[nodiscard]] double kept_bytes(const Run& run) noexcept;
+
 /// "1.2 GB"
 [[nodiscard]] std::string bytes_text(double bytes);
 
@@ -43,6 +46,18 @@ namespace footfall {
 
 /// Throws TooExpensive for a run that the machine itself has no memory for.
 [[noreturn]] void stop_for_machine();
+
+/// What `work` returns, which does a run again; where it throws TooExpensive, that says so.
+template <class Work>
+auto as_second_attempt(const Work& work) {
+    try {
+        return work();
+    } catch (const TooExpensive& error) {
+        throw TooExpensive(
+            std::string("done again with smaller steps, since its energy was not accounted for well enough: ") +
+            error.what());
+    }
+}
 
 /// Throws std::runtime_error for a run in which the search for an event or a peak met numbers that are none.
 [[noreturn]] void stop_for_search();
