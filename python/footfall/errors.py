@@ -35,7 +35,8 @@ class ScenarioError(InvalidInput):
 
 
 class TooExpensive(RuntimeError):
-    """A run would need, or has needed, more evaluations than ``solver.max_evaluations`` allows."""
+    """A run would need, or has needed, more evaluations or memory than ``solver.max_evaluations`` or
+    ``solver.max_memory`` allows."""
 
 
 class Interrupted(RuntimeError):
