@@ -84,6 +84,8 @@ const std::vector<Wrong>& wrongs() {
          [](Simulation& s) { s.options.tolerance = 0.01; },
          {"tolerance", "0.01", "1e-14", "1e-3"}},
         {"ToleranceNan", [](Simulation& s) { s.options.tolerance = nan; }, {"tolerance", "nan", "1e-14"}},
+        {"MaxMemoryZero", [](Simulation& s) { s.options.max_memory = 0; }, {"max_memory", "0 bytes", ">= 1"}},
+        {"MaxMemoryNan", [](Simulation& s) { s.options.max_memory = nan; }, {"max_memory", "nan", ">= 1"}},
         {"MaxEvaluationsZero", [](Simulation& s) { s.options.max_evaluations = 0; }, {"max_evaluations", "0", ">= 1"}},
         {"MaxEvaluationsNan",
          [](Simulation& s) { s.options.max_evaluations = nan; },
