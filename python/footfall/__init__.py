@@ -1,7 +1,7 @@
 """Compliant contact between spheres and the ground, with every joule accounted for.
 
 >>> import footfall
->>> run = footfall.run(footfall.shipped_scenarios()["rolling-sphere"])
+>>> run = footfall.run("rolling-sphere")
 >>> run.events[0].kind
 'touchdown'
 >>> run.dataset["normal_force"].attrs["units"]
@@ -11,10 +11,11 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from footfall import laws, studies
+    from footfall import figures, laws, paper, plot, studies
     from footfall._core import __version__
     from footfall.contact import FLIGHT, PHASES, RECOVERING, SLIP, STICK, ContactLaw, Response, Step
     from footfall.errors import Interrupted, InvalidInput, Problem, ScenarioError, TooExpensive
@@ -56,8 +57,12 @@ __all__ = [
 _MODULES = ("errors", "results", "scenario", "contact", "_core")
 
 
+# Loaded when first asked for. These draw with Matplotlib, which not everybody has, so that `import *` leaves them out.
+_DRAWING = ("figures", "paper", "plot")
+
+
 def __getattr__(name: str) -> Any:
-    if name in ("laws", "studies"):
+    if name in ("laws", "studies", *_DRAWING):
         return importlib.import_module(f"footfall.{name}")
     if name in __all__:
         for module in _MODULES:
@@ -68,4 +73,5 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    drawing = _DRAWING if importlib.util.find_spec("matplotlib") else ()
+    return sorted({*globals(), *__all__, *drawing})

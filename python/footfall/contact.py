@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from footfall import _core, laws
+from footfall import _arguments, _core, laws
+from footfall._values import Compared
 from footfall.errors import InvalidInput
 
 Floats = npt.NDArray[np.float64]
@@ -20,11 +21,12 @@ PHASES: tuple[str, ...] = _core.PHASES
 FLIGHT, STICK, SLIP, RECOVERING = range(4)
 
 
-@dataclass(frozen=True)
-class Response:
+@dataclass(frozen=True, eq=False)
+class Response(Compared):
     """What contacts do at one moment. Forces act on the body; ``(...)`` is the shape that the arguments share.
 
-    Tangential vectors have two components, in the ground's plane.
+    Tangential vectors have two components, in the ground's plane. Responses are equal where all their arrays are, NaN
+    taken as equal to NaN.
     """
 
     phase: npt.NDArray[np.int8]
@@ -49,9 +51,12 @@ class Response:
     """What the changing tangential stiffness takes with no force paying for it [W], shape (...); negative: it gives."""
 
 
-@dataclass(frozen=True)
-class Step:
-    """What contacts do over one time step of a host's simulator; ``(...)`` is the shape that the arguments share."""
+@dataclass(frozen=True, eq=False)
+class Step(Compared):
+    """What contacts do over one time step of a host's simulator; ``(...)`` is the shape that the arguments share.
+
+    Steps are equal where all their arrays are, NaN taken as equal to NaN.
+    """
 
     phase: npt.NDArray[np.int8]
     """At the end of the step: index into :data:`PHASES`, shape (...)."""
@@ -69,10 +74,7 @@ class Step:
 
 def _operand(name: str, value: npt.ArrayLike, width: int | None) -> tuple[Floats, tuple[int, ...]]:
     """The argument as an array, and the shape of the contacts that it is for. Numbers have no width."""
-    array = np.asarray(value)
-    if array.dtype.kind not in "fiub":
-        raise TypeError(f"{name}: real numbers are wanted, not {array.dtype}")
-    array = array.astype(np.float64, copy=False)
+    array = _arguments.real_array(name, value).astype(np.float64, copy=False)
     if width is None:
         return array, array.shape
     if array.ndim == 0 or array.shape[-1] != width:
@@ -80,11 +82,117 @@ def _operand(name: str, value: npt.ArrayLike, width: int | None) -> tuple[Floats
     return array, array.shape[:-1]
 
 
+def _phases(value: npt.ArrayLike) -> tuple[npt.NDArray[np.int8], tuple[int, ...]]:
+    """The numbers of phases, checked."""
+    array = _arguments.real_array("phase", value)
+    # Whatever is no phase, NaN as well, is outside of what is right.
+    if array.size and not (array.min() >= FLIGHT and array.max() <= RECOVERING):
+        _refuse_phase(array, ~((array >= FLIGHT) & (array <= RECOVERING)))
+    phases = array.astype(np.int8, copy=False)
+    if array.dtype.kind == "f" and not np.array_equal(phases, array):
+        _refuse_phase(array, phases != array)
+    return phases, array.shape
+
+
+def _refuse_phase(array: npt.NDArray[Any], wrong: npt.NDArray[np.bool_]) -> None:
+    first = np.unravel_index(int(np.argmax(wrong)), array.shape)
+    index = tuple(int(i) for i in first)
+    where = "" if not index else f" at index {index[0] if len(index) == 1 else index}"
+    names = ", ".join(f"{i} {name}" for i, name in enumerate(PHASES))
+    raise InvalidInput(f"phase: {array[first]}{where} is not allowed: must be one of {names}")
+
+
+# The arrays of a response, in the order of its fields: name, type, and components of each contact, None for numbers.
+# Those of the bristle are as many as the law has states.
+_STATES = -1
+_FLOAT, _PHASE = np.dtype(np.float64), np.dtype(np.int8)
+_COLUMNS: tuple[tuple[str, np.dtype[Any], int | None], ...] = tuple(
+    (
+        field.name,
+        _PHASE if field.name == "phase" else _FLOAT,
+        {"friction_force": 2, "bristle_rate": _STATES}.get(field.name),
+    )
+    for field in fields(Response)
+)
+
+
+def _flat_outputs(out: Response, shape: tuple[int, ...], states: int) -> list[npt.NDArray[Any]]:
+    """The arrays of ``out``, flat, each checked to be one that can be written as it is."""
+    if not isinstance(out, Response):
+        raise TypeError(f"out: a Response, as evaluate() returns it, is wanted, not {_arguments.described(out)}")
+    arrays = []
+    for name, dtype, width in _COLUMNS:
+        array = getattr(out, name)
+        wanted = shape if width is None else (*shape, states if width == _STATES else width)
+        if (
+            type(array) is not np.ndarray
+            or array.shape != wanted
+            or array.dtype != dtype
+            or not array.flags.carray  # contiguous, aligned and writeable
+        ):
+            _refuse_output(out, name, wanted, dtype, shape, states)
+        arrays.append(array.reshape(-1))
+    return arrays
+
+
+def _refuse_output(
+    out: Response, name: str, wanted: tuple[int, ...], dtype: np.dtype[Any], shape: tuple[int, ...], states: int
+) -> None:
+    """Says what is wrong with one array of ``out``."""
+    array = getattr(out, name)
+    must = f"must be a numpy.ndarray of {dtype}, shape {wanted}, contiguous (C order) and writeable"
+    if not isinstance(array, np.ndarray):
+        raise InvalidInput(f"out.{name}: {_arguments.described(array)} is not allowed: {must}")
+    if type(array) is not np.ndarray:
+        raise InvalidInput(
+            f"out.{name}: {type(array).__name__}, a kind of array of its own, is not allowed: {must}; its plain array "
+            "is numpy.asarray of it"
+        )
+    if array.dtype != dtype:
+        order = {">": ", big-endian", "<": ", little-endian"}.get(array.dtype.byteorder, "")
+        raise InvalidInput(f"out.{name}: an array of {array.dtype.newbyteorder('=')}{order} is not allowed: {must}")
+    if array.shape != wanted:
+        theirs = getattr(out.phase, "shape", None)
+        if theirs is not None and theirs != shape and array.shape[: len(theirs)] == theirs:
+            raise InvalidInput(
+                f"out: is for contacts of shape {theirs}, the arguments are for contacts of shape {shape}: "
+                f"out.{name} has shape {array.shape} and must have {wanted}"
+            )
+        law = f"; the friction law has {states} states" if name == "bristle_rate" else ""
+        raise InvalidInput(f"out.{name}: shape {array.shape} is not allowed: must be {wanted}{law}")
+    if not array.flags.writeable:
+        raise InvalidInput(f"out.{name}: a read-only array is not allowed: {must}")
+    if not array.flags.c_contiguous:
+        raise InvalidInput(f"out.{name}: an array that is not contiguous is not allowed: {must}")
+    raise InvalidInput(f"out.{name}: an array that is not aligned in memory is not allowed: {must}, aligned")
+
+
+def _allocate(shape: tuple[int, ...], widths: tuple[int | None, ...]) -> list[Floats]:
+    """New arrays for contacts of a shape. MemoryError says how many they are."""
+    try:
+        return [np.empty(shape if width is None else (*shape, width)) for width in widths]
+    except (MemoryError, ValueError):
+        raise _too_many(shape, sum(1 if width is None else width for width in widths)) from None
+
+
+def _too_many(shape: tuple[int, ...], numbers: int) -> MemoryError:
+    count = math.prod(shape)
+    size = 8 * count * numbers / 2**30
+    return MemoryError(
+        f"{count:.3g} contacts were asked for, of shape {shape}: {numbers} numbers for each, {size:.3g} GiB, are more "
+        "memory than there is"
+    )
+
+
 class ContactLaw:
     """A normal law and a friction law, composed: the whole contact law of one sphere, or of a million.
 
     It holds no state: the bristle u belongs to the caller. Friction laws that have internal states in its place
     (Dahl's, LuGre and others) take those, :attr:`states` numbers for each contact, wherever a bristle is asked for.
+
+    A contact one of whose numbers is NaN or infinite gives NaN in every array of floats, and FLIGHT as its phase; the
+    contacts beside it are not touched by that. A depth of minus infinity is the exception: it is free flight, far above
+    the ground. Laws are equal where their parameters are; they can be pickled, copied and used as keys.
 
     Parameters
     ----------
@@ -108,24 +216,17 @@ class ContactLaw:
     array([ 8.5  , 24.042])
     """
 
-    __slots__ = ("_law",)
+    __slots__ = ("_impact_speed", "_law")
 
     def __init__(
         self, normal: Any, friction: Any = None, *, impact_speed: float | None = None
     ) -> None:
-        if isinstance(normal, str):
-            normal = laws.normal(normal)
-        if friction is None:
-            friction = laws.NoneFriction()
-        elif isinstance(friction, str):
-            friction = laws.friction(friction)
-        try:
-            self._law = _core.ContactLaw(normal, friction, impact_speed)
-        except TypeError:
-            raise TypeError(
-                "ContactLaw(normal, friction): a law of footfall.laws or its text is wanted for each, not "
-                f"{type(normal).__name__} and {type(friction).__name__}"
-            ) from None
+        normal = laws._law("normal", normal, "Normal")
+        friction = laws._friction_or_none("friction", friction)
+        if impact_speed is not None:
+            impact_speed = _arguments.number("impact_speed", impact_speed, "m/s", at_least=0)
+        self._impact_speed = impact_speed
+        self._law = _core.ContactLaw(normal, friction, impact_speed)
 
     @property
     def normal(self) -> Any:
@@ -142,8 +243,28 @@ class ContactLaw:
         """How many numbers the bristle of a contact has: 2, or as many as the friction law has internal states."""
         return self._law.states
 
+    @property
+    def impact_speed(self) -> float | None:
+        """dz/dt at touchdown [m/s] as it was given, or None."""
+        return self._impact_speed
+
+    def _parts(self) -> tuple[Any, Any, float | None]:
+        return self.normal, self.friction, self.impact_speed
+
     def __repr__(self) -> str:
-        return f"ContactLaw(normal={self.normal!r}, friction={self.friction!r})"
+        speed = "" if self.impact_speed is None else f", impact_speed={self.impact_speed!r}"
+        return f"ContactLaw(normal={self.normal!r}, friction={self.friction!r}{speed})"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, ContactLaw):
+            return NotImplemented
+        return self._parts() == other._parts()
+
+    def __hash__(self) -> int:
+        return hash(self._parts())
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _contact_law, (type(self), *self._parts())
 
     def evaluate(
         self,
@@ -171,28 +292,27 @@ class ContactLaw:
         bristle
             u [m], shape (..., 2), or internal states, shape (..., law.states); that of a new contact by default.
         phase
-            As it was, shape (...). Only friction laws whose force jumps look at it; the others decide the phase here.
+            As it was, shape (...), each 0, 1, 2 or 3. Only friction laws whose force jumps look at it; the others
+            decide the phase here.
         out
-            A response of the same shape, whose arrays are written and which is returned: for loops that allocate
-            nothing.
+            A response for contacts of the same shape and law, as :meth:`evaluate` made it, whose arrays are written
+            and which is returned: for loops that allocate nothing. Its arrays are plain NumPy arrays of float64 (the
+            phase int8), contiguous and writeable, which share no memory with each other or with the arguments;
+            ``out.phase`` alone may be the argument ``phase`` too.
 
         Raises
         ------
         InvalidInput
-            Where the shapes do not fit together.
+            Where the shapes do not fit together, a phase is none, or an array of ``out`` cannot be written.
+        TypeError
+            Where something else than real numbers is given, or ``out`` is no Response.
         """
         flat, shape = self._flatten(depth, depth_rate, slip_velocity, bristle, phase)
+        states = self.states
         if out is None:
-            out = Response(
-                np.empty(shape, np.int8),
-                np.empty(shape),
-                np.empty((*shape, 2)),
-                np.empty((*shape, self.states)),
-                *(np.empty(shape) for _ in range(6)),
-            )
-        elif out.phase.shape != shape:
-            raise InvalidInput(f"out: is for contacts of shape {out.phase.shape}, the arguments are for {shape}")
-        self._law.evaluate(*flat, *(_flat(array) for array in vars(out).values()))
+            force, friction, rate, *rest = _allocate(shape, (None, 2, states, *[None] * 6))
+            out = Response(np.empty(shape, np.int8), force, friction, rate, *rest)
+        self._law.evaluate(*flat, *_flat_outputs(out, shape, states))
         return out
 
     def step(
@@ -232,22 +352,16 @@ class ContactLaw:
         Raises
         ------
         InvalidInput
-            Where the shapes do not fit together, or ``dt`` or ``tolerance`` is out of range.
+            Where the shapes do not fit together, a phase is none, or ``dt`` or ``tolerance`` is out of range.
+        TypeError
+            Where something else than real numbers is given.
         """
-        if not (math.isfinite(dt) and dt > 0):
-            raise InvalidInput(f"dt: {dt} s is not allowed: must be > 0 and finite")
-        if not 1e-12 <= tolerance <= 1e-2:
-            raise InvalidInput(f"tolerance: {tolerance} is not allowed: must be from 1e-12 to 1e-2")
+        dt = _arguments.number("dt", dt, "s", above=0)
+        tolerance = _arguments.number("tolerance", tolerance, at_least=1e-12, at_most=1e-2)
         flat, shape = self._flatten(depth, depth_rate, slip_velocity, bristle, phase)
-        step = Step(
-            np.empty(shape, np.int8),
-            np.empty(shape),
-            np.empty((*shape, 2)),
-            np.empty((*shape, self.states)),
-            np.empty(shape),
-            np.empty(shape),
-        )
-        self._law.step(*flat, float(dt), float(tolerance), *(_flat(array) for array in vars(step).values()))
+        force, friction, new_bristle, damper, clutch = _allocate(shape, (None, 2, self.states, None, None))
+        step = Step(np.empty(shape, np.int8), force, friction, new_bristle, damper, clutch)
+        self._law.step(*flat, dt, tolerance, *(array.reshape(-1) for array in vars(step).values()))
         return step
 
     def _flatten(
@@ -261,16 +375,16 @@ class ContactLaw:
         """The arguments as flat arrays, of one contact or of all, and the shape that they share."""
         if bristle is None:
             bristle = np.zeros(self.states)
-        operands = [
+        operands: list[tuple[npt.NDArray[Any], tuple[int, ...], int | None]] = [
             (*_operand(name, value, width), width)
             for name, value, width in (
                 ("depth", depth, None),
                 ("depth_rate", depth_rate, None),
                 ("slip_velocity", slip_velocity, 2),
                 ("bristle", bristle, self.states),
-                ("phase", FLIGHT if phase is None else phase, None),
             )
         ]
+        operands.append((_NEW, (), None) if phase is None else (*_phases(phase), None))
         try:
             shape = np.broadcast_shapes(*(contacts for _, contacts, _ in operands))
         except ValueError:
@@ -283,13 +397,19 @@ class ContactLaw:
         for array, contacts, width in operands:
             # One value for all contacts is not copied: the loop in C++ stands still on it.
             if math.prod(contacts) != 1 and contacts != shape:
-                array = np.broadcast_to(array, shape if width is None else (*shape, width))
-            flat.append(np.ascontiguousarray(array).reshape(-1))
-        flat[-1] = flat[-1].astype(np.int8)
+                try:
+                    array = np.ascontiguousarray(np.broadcast_to(array, shape if width is None else (*shape, width)))
+                except (MemoryError, ValueError):
+                    raise _too_many(shape, width or 1) from None
+            array = np.ascontiguousarray(array)
+            flat.append((array if array.flags.aligned else array.copy()).reshape(-1))
         return flat, shape
 
 
-def _flat(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    if not array.flags.c_contiguous:
-        raise InvalidInput("out: its arrays must be contiguous, as evaluate() makes them")
-    return array.reshape(-1)
+#: The phase that contacts are taken to come from by default.
+_NEW = np.array(FLIGHT, np.int8)
+
+
+def _contact_law(kind: type[ContactLaw], normal: Any, friction: Any, impact_speed: float | None) -> ContactLaw:
+    """What a pickled or copied contact law is made from."""
+    return kind(normal, friction, impact_speed=impact_speed)

@@ -18,9 +18,16 @@ from typing import Any
 
 import numpy as np
 
-from footfall import plot
+from footfall import _arguments
 from footfall.errors import InvalidInput
 from footfall.results import Run, open
+
+try:
+    from footfall import plot
+except ImportError as error:
+    if __name__ != "__main__":
+        raise
+    raise SystemExit(f"error: {error}") from None
 
 import matplotlib.pyplot as plt  # after footfall.plot, which says how to install it
 
@@ -84,11 +91,15 @@ IMPACT = (
 def make(run: Run, out: Path, drawings: Sequence[Drawing] = WHOLE) -> list[tuple[Path, str]]:
     """Draws a run into the folder ``out`` and gives the files, each with its caption.
 
-    Raises InvalidInput where drawings of an impact are wanted and nothing touches the ground.
+    Raises InvalidInput where drawings of an impact are wanted and nothing touches the ground, OSError where the folder
+    or a file cannot be written.
     """
+    if not isinstance(run, Run):
+        said = _arguments.described(run)
+        raise TypeError(f"run: a run is wanted, as footfall.run and footfall.open give it, not {said}")
     if drawings is IMPACT and not run.impacts:
         raise InvalidInput("run: has no impact to draw")
-    out.mkdir(parents=True, exist_ok=True)
+    out = _arguments.folder("out", out)
     made = []
     for drawing in drawings:
         with plt.rc_context(plot.STYLE):

@@ -22,9 +22,16 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
-from footfall import plot, studies
+from footfall import _arguments, studies
 from footfall.results import Run, run
 from footfall.scenario import Scenario, shipped_scenarios
+
+try:
+    from footfall import plot
+except ImportError as error:
+    if __name__ != "__main__":
+        raise
+    raise SystemExit(f"error: {error}") from None
 
 import matplotlib.pyplot as plt  # after footfall.plot, which says how to install it
 from matplotlib.figure import Figure as Canvas
@@ -878,7 +885,8 @@ def page(figures: Sequence[Figure]) -> str:
 
 def make(out: Path, figures: Sequence[Figure] | None = None, *, say: Callable[[str], object] = print) -> list[Figure]:
     """Draws the figures into ``out``, writes ``index.html`` there, and gives the figures with their checks."""
-    out.mkdir(parents=True, exist_ok=True)
+    out = _arguments.folder("out", out)
+    _arguments.function("say", say)
     runs = Runs()
     if figures is None:
         figures = [figure(runs) for figure in FIGURES]

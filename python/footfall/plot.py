@@ -1,14 +1,13 @@
 """Figures of runs and studies. Each function draws on Axes of Matplotlib that it is given, labels them with units, and
 returns them.
 
-Matplotlib is needed: ``pip install matplotlib``.
+Matplotlib is needed: ``pip install 'footfall[plot]'``.
 
 >>> import footfall
 >>> import matplotlib.pyplot as plt
->>> from footfall import plot
->>> run = footfall.run(footfall.shipped_scenarios()["single-impact"])
+>>> run = footfall.run("single-impact")
 >>> figure, axes = plt.subplots()
->>> plot.force_indentation(axes, run).get_xlabel()
+>>> footfall.plot.force_indentation(axes, run).get_xlabel()
 'indentation [mm]'
 """
 
@@ -24,6 +23,7 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
+from footfall import _arguments
 from footfall.errors import InvalidInput
 from footfall.results import Run
 
@@ -34,7 +34,7 @@ try:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Circle, Patch
 except ImportError as error:
-    raise ImportError("footfall.plot needs Matplotlib: pip install matplotlib") from error
+    raise ImportError("footfall.plot needs Matplotlib: pip install 'footfall[plot]'", name=error.name) from error
 
 Floats = npt.NDArray[np.float64]
 Window = tuple[float, float]
@@ -97,22 +97,82 @@ def _scale(values: npt.ArrayLike) -> tuple[float, str]:
     return (1.0, "") if largest == 0 else _PREFIXES[-1]
 
 
-def _check_sphere(data: xr.Dataset, sphere: int) -> None:
-    if not 0 <= sphere < data.sizes["sphere"]:
-        raise InvalidInput(f"sphere: {sphere} is not allowed: must be from 0 to {data.sizes['sphere'] - 1}")
+# What the functions are given ---------------------------------------------------------------------------------------
+
+
+def _check(axes: Any, run: Any) -> None:
+    """That the two are what they must be, and not in the other order."""
+    _check_axes(axes)
+    _check_run(run)
+
+
+def _check_axes(axes: Any) -> None:
+    if not isinstance(axes, Axes):
+        raise TypeError(f"axes: Axes of Matplotlib are wanted, such as plt.subplots() makes, not {_said(axes)}")
+
+
+def _check_run(run: Any) -> None:
+    if not isinstance(run, Run):
+        raise TypeError(f"run: a run is wanted, as footfall.run and footfall.open give it, not {_said(run)}")
+
+
+def _check_dataset(name: str, data: Any, of: str) -> None:
+    if not isinstance(data, xr.Dataset):
+        raise TypeError(f"{name}: a dataset is wanted, as footfall.studies.{of} gives it, not {_said(data)}")
+
+
+def _said(value: Any) -> str:
+    return f"a list of {len(value)}" if isinstance(value, (list, tuple)) else _arguments.described(value)
+
+
+def _check_sphere(data: xr.Dataset, sphere: int) -> int:
+    last = data.sizes["sphere"] - 1
+    if last == 0:
+        return _arguments.integer("sphere", sphere, 0, 0, ", the index of the only sphere")
+    return _arguments.integer("sphere", sphere, 0, last, ", an index of the body's spheres")
+
+
+def _check_window(run: Run, window: Any) -> Window:
+    """The window, or the whole run."""
+    first, last = (float(run.dataset["time"][i]) for i in (0, -1))
+    if window is None:
+        return first, last
+    pair = _arguments.real_array("window", window)
+    if pair.shape != (2,):
+        raise InvalidInput(f"window: shape {pair.shape} is not allowed: must be two times, (start, end) [s]")
+    start, end = (float(time) for time in pair)
+    if not (math.isfinite(start) and math.isfinite(end) and start < end):
+        raise InvalidInput(f"window: ({start:g}, {end:g}) is not allowed: must be (start, end) with start < end [s]")
+    if end < first or start > last:
+        raise InvalidInput(f"window: ({start:g}, {end:g}) is not allowed: the run is from {first:g} s to {last:g} s")
+    return start, end
+
+
+def _samples(run: Run, window: Any) -> tuple[Window, xr.Dataset]:
+    """The window, and the samples in it."""
+    shown = _check_window(run, window)
+    data = run.dataset.sel(time=slice(*shown))
+    if data.sizes["time"] < 2:
+        every = np.median(np.diff(run.dataset["time"].values)) if run.dataset.sizes["time"] > 1 else math.nan
+        raise InvalidInput(
+            f"window: ({shown[0]:g}, {shown[1]:g}) is not allowed: must hold two samples of the run, which has one "
+            f"every {every:g} s"
+        )
+    return shown, data
 
 
 def _window(run: Run, sphere: int, window: Window | None, impact: int | None) -> tuple[Window, float]:
     """The times to draw, and the one that they are counted from."""
     data = run.dataset
-    _check_sphere(data, sphere)
+    sphere = _check_sphere(data, sphere)
     end = float(data["time"][-1])
     if impact is None:
-        return window or (float(data["time"][0]), end), 0.0
+        return _check_window(run, window), 0.0
     if window is not None:
         raise InvalidInput("window, impact: one of the two is wanted")
     own = [visit for visit in run.impacts if visit.sphere == sphere]
-    if not 0 <= impact < len(own):
+    impact = _arguments.integer("impact", impact, 0)
+    if impact >= len(own):
         raise InvalidInput(f"impact: {impact} is not allowed: sphere {sphere} has {len(own)} impacts, counted from 0")
     start, stop = own[impact].touchdown, own[impact].recovered or end
     margin = 0.1 * (stop - start)
@@ -144,8 +204,9 @@ def phases(run: Run, sphere: int = 0) -> list[tuple[str, float, float]]:
 
     Names are flight, stick, slip and recovering; where there is no friction to stick or slip, ``pressing``.
     """
+    _check_run(run)
     data = run.dataset
-    _check_sphere(data, sphere)
+    sphere = _check_sphere(data, sphere)
     names = data["phase"].attrs["flag_meanings"].split()
     sampled, times = data["phase"].values[:, sphere], data["time"].values
     starts = [(float(times[0]), names[sampled[0]])]
@@ -169,6 +230,7 @@ def shade_phases(
 
     The axis of time is taken as :func:`contact_force` has made it with the same ``window`` or ``impact``.
     """
+    _check(axes, run)
     shown, origin = _window(run, sphere, window, impact)
     factor, _ = _scale(np.array(shown) - origin)
     seen: dict[str, Patch] = {}
@@ -193,8 +255,8 @@ def _gaps(data: xr.Dataset) -> Floats:
 
 def height(axes: Axes, run: Run, *, window: Window | None = None) -> Axes:
     """Height of the body's lowest point above the undeformed ground, over time."""
-    shown, _ = _window(run, 0, window, None)
-    data = run.dataset.sel(time=slice(*shown))
+    _check(axes, run)
+    _, data = _samples(run, window)
     gaps = _gaps(data)
     factor, prefix = _scale(gaps)
     if prefix == "m" and np.max(np.abs(gaps)) >= 0.02:
@@ -209,8 +271,9 @@ def height(axes: Axes, run: Run, *, window: Window | None = None) -> Axes:
 
 def trajectory(axes: Axes, run: Run, *, horizontal: Literal["x", "y"] = "x") -> Axes:
     """Path of the centre of mass seen from the side, with the places of its touchdowns."""
+    _check(axes, run)
     data = run.dataset
-    side = "xyz".index(horizontal)
+    side = "xyz".index(_arguments.choice("horizontal", horizontal, ("x", "y")))
     path = data["position"].values
     touchdowns = np.array([event.state.position for event in run.events if event.kind == "touchdown"]).reshape(-1, 3)
     axes.plot(path[:, side] * 100, path[:, 2] * 100, color=BLUE, label="centre of mass")
@@ -249,7 +312,10 @@ def contact_force(
     shade
         Whether to shade the phases.
     """
+    _check(axes, run)
     shown, origin = _window(run, sphere, window, impact)
+    _arguments.choice("component", component, ("normal", "x", "y", "z", "friction"))
+    shade = _arguments.flag("shade", shade)
     if component == "normal":
         times, force = _course(run.dataset, "normal_force", sphere, shown)
         label = "normal force [N]"
@@ -275,6 +341,9 @@ def force_indentation(axes: Axes, of: Run | xr.Dataset, *, sphere: int = 0, impa
 
     An arrow shows the way round, and in a run of one visit a mark where the sphere leaves.
     """
+    _check_axes(axes)
+    if not isinstance(of, (Run, xr.Dataset)):
+        raise TypeError(f"of: a run, or a dataset of footfall.studies.drive, is wanted, not {_said(of)}")
     if isinstance(of, Run):
         shown, _ = _window(of, sphere, None, impact)
         _, depth = _course(of.dataset, "depth", sphere, shown)
@@ -305,6 +374,9 @@ def force_indentation(axes: Axes, of: Run | xr.Dataset, *, sphere: int = 0, impa
 def presliding_loop(axes: Axes, data: xr.Dataset, *, direction: Literal["x", "y"] = "x") -> Axes:
     """Friction against displacement, as :func:`footfall.studies.drive` gives them: a loop where the contact is dragged
     to and fro. The force is the one on the ground, along the motion."""
+    _check_axes(axes)
+    _check_dataset("data", data, "drive")
+    _arguments.choice("direction", direction, ("x", "y"))
     curves = list(_series(data, f"slip_displacement_{direction}", f"friction_force_{direction}"))
     factor, prefix = _scale(np.concatenate([x for _, (x, _) in curves]))
     for (name, (x, force)), (color, dashes) in zip(curves, _endless()):
@@ -318,11 +390,11 @@ def presliding_loop(axes: Axes, data: xr.Dataset, *, direction: Literal["x", "y"
     return axes
 
 
-def _series(data: xr.Dataset, *names: str) -> Iterator[tuple[str, tuple[Floats, ...]]]:
+def _series(data: xr.Dataset, *names: str, study: str = "drive") -> Iterator[tuple[str, tuple[Floats, ...]]]:
     """Columns of a study, for each of its series where it has several."""
     missing = [name for name in names if name not in data]
     if missing:
-        raise InvalidInput(f"dataset: has no {', '.join(missing)}; those of footfall.studies.drive have")
+        raise InvalidInput(f"dataset: has no {', '.join(missing)}; those of footfall.studies.{study} have")
     if not any("series" in data[name].dims for name in names):
         yield "", tuple(data[name].values for name in names)
         return
@@ -359,8 +431,8 @@ def energy(axes: Axes, run: Run, *, window: Window | None = None) -> Axes:
     far below zero instead, and the part is hatched there. The changing stiffness is such a part where the law has made
     energy. The line on top is the total at the start, computed from nothing else.
     """
-    shown, _ = _window(run, 0, window, None)
-    data = run.dataset.sel(time=slice(*shown))
+    _check(axes, run)
+    _, data = _samples(run, window)
     times = _time_label(axes, data["time"].values, 0.0)
     factor, prefix = _scale(data["energy_total"].values)
     parts = {name: data[f"energy_{name}"].values * factor for name, _, _ in ENERGIES}
@@ -394,6 +466,7 @@ def residual(axes: Axes, run: Run) -> Axes:
     Samples lie between the steps of the integration, so the error of interpolation counts here;
     ``run.energy.max_residual`` is that of the steps.
     """
+    _check(axes, run)
     data = run.dataset
     size = np.abs(data["energy_residual"].values)
     size[size == 0] = np.nan
@@ -421,12 +494,17 @@ def restitution(axes: Axes, data: xr.Dataset, *, logarithmic: bool = True, theor
     theory
         A column of the dataset to draw beside the curves as points, such as ``closed_form`` or ``mueller_poeschel``.
     """
+    _check_axes(axes)
+    _check_dataset("data", data, "restitution")
+    logarithmic = _arguments.flag("logarithmic", logarithmic)
+    curves = list(_series(data, "restitution", "speed", study="restitution"))
     speed = data["speed"].values
-    for (name, (e,)), (color, dashes) in zip(_series(data, "restitution"), _endless()):
+    for (name, (e, _)), (color, dashes) in zip(curves, _endless()):
         axes.plot(speed, e, color=color, linestyle=dashes, label=name or None)
     if theory is not None:
-        if theory not in data:
-            raise InvalidInput(f"theory: {theory!r} is not in the dataset")
+        columns = [str(name) for name in data.data_vars if data[name].dims == data["restitution"].dims]
+        if _arguments.text("theory", theory) not in columns:
+            raise InvalidInput(f"theory: {theory!r} is not allowed: must be one of {', '.join(columns)}")
         for (_, (e,)), (color, _) in zip(_series(data, theory), _endless()):
             axes.plot(speed, e, "o", ms=3, mfc="none", color=color)
     if logarithmic:
@@ -455,7 +533,9 @@ class _Picture:
     def __init__(self, run: Run, horizontal: str, arrow: float | None) -> None:
         data = run.dataset
         self._data = data
-        self._side = ["xyz".index(horizontal), 2]
+        self._side = ["xyz".index(_arguments.choice("horizontal", horizontal, ("x", "y"))), 2]
+        if arrow is not None:
+            arrow = _arguments.number("arrow", arrow, "m/N", at_least=0)
         self.radii = data["sphere_radius"].values
         self._centers = data["sphere_center"].values
         self._normal = data["ground_normal"].values
@@ -528,6 +608,10 @@ def _legend_of_forces(axes: Axes) -> None:
     axes.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, frameon=False)
 
 
+#: More frames than this are no film that somebody looks at: the argument was mistaken for another.
+_MOST_FRAMES = 1000
+
+
 def filmstrip(
     axes: Axes,
     run: Run,
@@ -550,11 +634,15 @@ def filmstrip(
     arrow
         Length of an arrow for each newton [m/N]; by default the largest force is nearly as long as the body.
     """
+    _check(axes, run)
     data = run.dataset
-    if times is None:
+    frames = _arguments.integer("frames", frames, 1, _MOST_FRAMES)
+    if times is not None:
+        times = _arguments.column("times", times)
+    else:
         end = float(data["time"][-1])
         start, stop = (run.impacts[0].touchdown, run.impacts[0].recovered or end) if run.impacts else (0.0, end)
-        times = list(np.linspace(start, stop, frames))
+        times = np.linspace(start, stop, frames).tolist()
     if len(times) == 0 or min(times) < data["time"].values[0] or max(times) > data["time"].values[-1]:
         raise InvalidInput(f"times: must be from {data['time'].values[0]:g} s to {data['time'].values[-1]:g} s")
     picture = _Picture(run, horizontal, arrow)
@@ -614,17 +702,23 @@ def animation(
     InvalidInput
         Where the file's ending is another, or ffmpeg is missing for an MP4.
     """
-    path = Path(path)
+    _check_run(run)
+    path = _arguments.path("path", path)
+    seconds = _arguments.number("seconds", seconds, "s", above=0)
+    frames_per_second = _arguments.integer("frames_per_second", frames_per_second, 1, _MOST_FRAMES)
+    width = _arguments.number("width", width, "inch", at_least=1, at_most=100)
+    _arguments.function("progress", progress)
     if path.suffix not in (".gif", ".mp4"):
         raise InvalidInput(f"path: {path.name!r} is not allowed: must end in .gif or .mp4")
     if path.suffix == ".mp4" and not _animation.writers.is_available("ffmpeg"):
         raise InvalidInput(
             f"path: {path.name!r} is not allowed: an MP4 needs ffmpeg, which is not installed; a .gif does not"
         )
+    if not path.absolute().parent.is_dir():
+        raise _arguments.os_error(2, f"cannot write {path}: there is no folder {path.parent}")
     data = run.dataset
-    shown, _ = _window(run, 0, window, None)
     picture = _Picture(run, horizontal, arrow)
-    part = data.sel(time=slice(*shown))
+    _, part = _samples(run, window)
     side = "xyz".index(horizontal)
     x, z = part["position"].values[:, side], part["position"].values[:, 2]
     left, right = x.min() - 1.6 * picture.reach, x.max() + 1.6 * picture.reach

@@ -15,6 +15,9 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
+from footfall import _arguments
+from footfall._files import read_netcdf, written_whole
+from footfall._values import Compared
 from footfall.errors import InvalidInput
 
 if TYPE_CHECKING:
@@ -23,8 +26,8 @@ if TYPE_CHECKING:
 Floats = npt.NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class State:
+@dataclass(frozen=True, eq=False)
+class State(Compared):
     """A body and its contacts at one moment. Vectors are in the world's frame.
 
     Of an event the contact is that of the event's sphere; :class:`Final` has those of all spheres.
@@ -66,7 +69,7 @@ class Event:
     """At that time, in the phase that the event begins."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Final(State):
     """The end of a run. Contacts are those of all spheres, along the first axis."""
 
@@ -158,20 +161,39 @@ def _none_if_missing(value: float) -> float | None:
 
 
 class Run:
-    """A run, as :func:`footfall.run` and :func:`footfall.open` give it."""
+    """A run, as :func:`footfall.run` and :func:`footfall.open` give it.
 
-    def __init__(self, dataset: xr.Dataset, wall_seconds: float | None = None) -> None:
+    ``print(run)`` shows the page that the command line prints, of a run that was just made; of one from a file, which
+    does not keep it, a line. Runs can be pickled and copied; they are equal where their datasets are identical.
+    """
+
+    def __init__(self, dataset: xr.Dataset, wall_seconds: float | None = None, page: str | None = None) -> None:
         self._dataset = dataset
         self._wall_seconds = wall_seconds
+        self._page = page
 
     @property
     def dataset(self) -> xr.Dataset:
         """Every sample, event and impact, labelled with units: what ``footfall run -o RUN.nc`` writes.
 
         Dimensions: time, sphere, axis (x, y, z), quaternion (w, x, y, z), event, impact.
-        ``dataset.to_netcdf("run.nc")`` writes it; :func:`footfall.open` reads it.
+        :meth:`save` writes it; :func:`footfall.open` reads it.
         """
         return self._dataset
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Writes the dataset as a NetCDF-4 file, as ``footfall run -o`` does, and gives its path.
+
+        The file appears whole or not at all, in place of one that was there. Any number of threads may save and
+        :func:`open` at once; ``dataset.to_netcdf`` writes the same file, but the NetCDF library below it is not made
+        for threads.
+
+        Raises
+        ------
+        OSError
+            Where the file cannot be written.
+        """
+        return written_whole(_arguments.path("path", path), self._dataset)
 
     @property
     def title(self) -> str:
@@ -251,12 +273,51 @@ class Run:
             wall_seconds=self._wall_seconds,
         )
 
+    def __getstate__(self) -> dict[str, Any]:
+        # Not what is computed from the dataset when it is asked for.
+        return {"_dataset": self._dataset, "_wall_seconds": self._wall_seconds, "_page": self._page}
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Run):
+            return NotImplemented
+        return bool(self._dataset.identical(other._dataset))
+
+    def __hash__(self) -> int:
+        return hash((self.title, self._dataset.attrs["scenario"]))
+
+    def __str__(self) -> str:
+        return repr(self) if self._page is None else self._page.rstrip("\n")
+
     def __repr__(self) -> str:
         sizes = self._dataset.sizes
         return (
             f"<footfall.Run {self.title!r}: {self.final.time:g} s, {sizes['time']} samples, {sizes['event']} events, "
             f"{sizes['impact']} impacts, largest residual {self.energy.max_residual:.1e}>"
         )
+
+
+# What makes a file one of a run: what Run reads.
+_ATTRIBUTES = ("footfall_version", "title", "scenario", "tolerance", "steps", "rejected_steps", "stiff_steps",
+               "evaluations", "max_residual", "energy_scale", "friction_law")  # fmt: skip
+_OF_BODY = {"position": ("axis",), "velocity": ("axis",), "orientation": ("quaternion",),
+            "angular_velocity": ("axis",)}  # fmt: skip
+_OF_CONTACT: dict[str, tuple[str, ...]] = {"depth": (), "depth_rate": (), "normal_force": (),
+                                           "friction_force": ("axis",), "slip_velocity": ("axis",),
+                                           "bristle": ("axis",)}  # fmt: skip
+_VARIABLES: dict[str, tuple[str, ...]] = {
+    "time": ("time",),
+    "phase": ("time", "sphere"),
+    "sphere_radius": ("sphere",),
+    "sphere_center": ("sphere", "axis"),
+    "ground_normal": ("axis",),
+    "ground_height": (),
+    **{name: ("time", *axis) for name, axis in _OF_BODY.items()},
+    **{name: ("time", "sphere", *axis) for name, axis in _OF_CONTACT.items()},
+    **{f"event_{name}": ("event", *axis) for name, axis in (_OF_BODY | _OF_CONTACT).items()},
+    **{f"event_{name}": ("event",) for name in ("time", "kind", "sphere")},
+    **{f"impact_{name}": ("impact",) for name in _fields(Impact)},
+    **{f"energy_{name}": ("time",) for name in _fields(Energy) if name not in ("initial", "max_residual", "scale")},
+}
 
 
 def _number_or_view(value: Any) -> Any:
@@ -276,7 +337,8 @@ def run(
     Parameters
     ----------
     scenario
-        A file, a dict nested as the file's tables, or a :class:`Scenario`.
+        A file, the name of a shipped scenario where there is no such file, a dict nested as the file's tables, or a
+        :class:`Scenario`.
     tolerance
         Relative error of a step, from 1e-14 to 1e-3, in place of the scenario's.
     progress
@@ -289,6 +351,8 @@ def run(
         With everything that is wrong in the scenario, and where.
     InvalidInput
         Where the tolerance is out of range, or the scenario cannot be simulated.
+    TypeError
+        Where an argument is of another kind.
     TooExpensive
         Where it would need more than ``solver.max_evaluations``.
     OSError
@@ -297,7 +361,7 @@ def run(
     Examples
     --------
     >>> import footfall
-    >>> run = footfall.run(footfall.shipped_scenarios()["single-impact"])
+    >>> run = footfall.run("single-impact")
     >>> print(f"{run.impacts[0].restitution:.3f}")
     0.620
     """
@@ -305,25 +369,35 @@ def run(
     from footfall.scenario import as_scenario
 
     if tolerance is not None:
-        tolerance = float(tolerance)
-    (attributes, variables), wall_seconds = _core.run(as_scenario(scenario)._core, tolerance, progress)
-    return Run(_dataset(attributes, variables), wall_seconds)
+        tolerance = _arguments.number("tolerance", tolerance, infinite=True)
+    _arguments.function("progress", progress)
+    (attributes, variables), wall_seconds, page = _core.run(as_scenario(scenario)._core, tolerance, progress)
+    return Run(_dataset(attributes, variables), wall_seconds, page)
 
 
 def open(path: str | os.PathLike[str]) -> Run:  # noqa: A001
-    """Reads a run from a NetCDF file that ``footfall run -o`` or ``run.dataset.to_netcdf`` has written.
+    """Reads a run from a NetCDF file that ``footfall run -o`` or :meth:`Run.save` has written.
+
+    Any number of threads may do so at once.
 
     Raises
     ------
     InvalidInput
-        Where the file is not one of a run.
+        Where the file is not one of a run, or not a whole one.
     OSError
         Where it cannot be read.
     """
-    with xr.open_dataset(Path(path), engine="netcdf4") as file:
-        dataset = file.load()
-    if "footfall_version" not in dataset.attrs:
-        raise InvalidInput(f"{path}: is not a run of footfall: the attribute 'footfall_version' is missing")
+    file = _arguments.path("path", path)
+    dataset = read_netcdf(file)
+    missing = [f"the attribute '{name}'" for name in _ATTRIBUTES if name not in dataset.attrs]
+    missing += [f"the variable '{name}'" for name in _VARIABLES if name not in dataset.variables]
+    if missing:
+        raise InvalidInput(f"{file}: is not a run of footfall: {missing[0]} is missing")
+    for name, dimensions in _VARIABLES.items():
+        if dataset[name].dims != dimensions:
+            raise InvalidInput(f"{file}: is not a run of footfall: the variable '{name}' is not one over {dimensions}")
+    if dataset.sizes["time"] == 0:
+        raise InvalidInput(f"{file}: is not a run of footfall: it has no sample")
     return Run(dataset)
 
 

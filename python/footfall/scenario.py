@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 import sys
 from collections.abc import Mapping
@@ -11,7 +12,7 @@ from typing import Any
 import numpy as np
 import tomli_w
 
-from footfall import _core
+from footfall import _arguments, _core
 from footfall.errors import InvalidInput
 
 if sys.version_info >= (3, 11):
@@ -24,16 +25,20 @@ class Scenario:
     """What to simulate: read from a file, a text or a dict, and checked.
 
     Make one with :meth:`load`, :meth:`parse` or :meth:`from_dict`; :func:`footfall.run` takes all of these directly.
+    ``print(scenario)`` shows what it describes. Scenarios are equal where their texts are; they can be pickled, copied
+    and used as keys.
     """
 
     __slots__ = ("_core",)
 
     def __init__(self, core: _core.Scenario) -> None:
+        if not isinstance(core, _core.Scenario):
+            raise TypeError("Scenario: make one with Scenario.load, Scenario.parse or Scenario.from_dict")
         self._core = core
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Scenario:
-        """Reads a scenario file (TOML).
+        """Reads a scenario file (TOML), or a shipped scenario by its name where there is no such file.
 
         Raises
         ------
@@ -42,12 +47,25 @@ class Scenario:
         OSError
             Where it cannot be read.
         """
-        return cls(_core.Scenario.load(Path(path)))
+        file = _arguments.path("path", path)
+        shipped = shipped_scenarios()
+        if str(file) in shipped and not os.path.lexists(file):
+            file = shipped[str(file)]
+        try:
+            return cls(_core.Scenario.load(file))
+        except FileNotFoundError as error:
+            meant = difflib.get_close_matches(file.stem, shipped, n=3)
+            if meant:
+                names = " or ".join(f"'{name}'" for name in meant)
+                raise _arguments.os_error(
+                    error.errno, f"{error}; did you mean the shipped scenario {names}?"
+                ) from None
+            raise
 
     @classmethod
     def parse(cls, text: str, name: str = "scenario") -> Scenario:
         """Reads a scenario from its text; ``name`` stands for the file in messages. Raises ScenarioError."""
-        return cls(_core.Scenario.parse(text, name))
+        return cls(_core.Scenario.parse(_arguments.text("text", text), _arguments.text("name", name)))
 
     @classmethod
     def from_dict(cls, tables: Mapping[str, Any], name: str = "scenario") -> Scenario:
@@ -80,6 +98,17 @@ class Scenario:
         """The text as dicts, to change and give to :func:`footfall.run`. Defaults are not filled in."""
         return tomllib.loads(self.text)
 
+    def __str__(self) -> str:
+        return self._core.summary().rstrip("\n")
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Scenario):
+            return NotImplemented
+        return self.text == other.text
+
+    def __hash__(self) -> int:
+        return hash(self.text)
+
     def __repr__(self) -> str:
         return f"Scenario({self.name!r}, title={self.title!r})"
 
@@ -96,7 +125,12 @@ def to_toml(tables: Mapping[str, Any]) -> str:
 
     Raises InvalidInput where a value is of a kind that TOML does not have, with the key.
     """
-    return tomli_w.dumps(_plain(tables, ""))
+    if not isinstance(tables, Mapping):
+        raise TypeError(f"tables: a dict nested as a scenario's tables is wanted, not {_arguments.described(tables)}")
+    try:
+        return tomli_w.dumps(_plain(tables, ""))
+    except RecursionError:
+        raise InvalidInput("tables: are nested too deeply, or contain themselves") from None
 
 
 def _plain(value: Any, key: str) -> Any:
@@ -110,7 +144,9 @@ def _plain(value: Any, key: str) -> Any:
         return _plain(value.tolist(), key)
     if isinstance(value, (list, tuple)):
         return [_plain(item, f"{key}[{i}]") for i, item in enumerate(value)]
-    if isinstance(value, (bool, int, float, str)):
+    if isinstance(value, str):
+        return _arguments.text(key, value)
+    if isinstance(value, (bool, int, float)):
         return value
     raise InvalidInput(
         f"{key}: {value!r} is not allowed: must be a number, a string, true or false, a list or a dict"
@@ -125,7 +161,7 @@ def as_scenario(scenario: str | os.PathLike[str] | Mapping[str, Any] | Scenario)
         return Scenario.from_dict(scenario)
     if isinstance(scenario, (str, os.PathLike)):
         return Scenario.load(scenario)
-    raise TypeError(f"a path, a dict or a Scenario is wanted, not {type(scenario).__name__}")
+    raise TypeError(f"scenario: a path, a dict or a Scenario is wanted, not {type(scenario).__name__}")
 
 
 def shipped_scenarios() -> dict[str, Path]:

@@ -13,7 +13,6 @@ import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -21,7 +20,8 @@ import numpy.typing as npt
 import pandas as pd
 import xarray as xr
 
-from footfall import _core, laws
+from footfall import _arguments, _core, laws
+from footfall._values import Compared
 from footfall.errors import InvalidInput
 from footfall.scenario import to_toml
 
@@ -50,33 +50,29 @@ def _labelled(
     return xr.Dataset(data, coordinates, {"title": title, "source": f"footfall {_core.__version__}"})
 
 
-def _normal(law: Any) -> Any:
-    return laws.normal(law) if isinstance(law, str) else law
-
-
-def _friction(law: Any) -> Any:
-    if law is None:
-        return laws.NoneFriction()
-    return laws.friction(law) if isinstance(law, str) else law
-
-
-def _named(given: Any, read: Any) -> dict[str, Any]:
+def _named(name: str, given: Any, kind: str) -> dict[str, Any]:
     """Laws by name: a mapping, one law, or several, which are told apart by their parameters where their kinds are
-    the same."""
+    the same. ``kind`` is Normal or Friction; None stands for no friction."""
+
+    def read(where: str, law: Any) -> Any:
+        return laws._friction_or_none(where, law) if kind == "Friction" else laws._law(where, law, kind)
+
     if isinstance(given, Mapping):
-        return {name: read(law) for name, law in given.items()}
-    if isinstance(given, str) or not isinstance(given, Iterable):
-        given = [given]
-    made = [read(law) for law in given]
-    kinds = [law.name for law in made]
-    return {law.name if kinds.count(law.name) == 1 else law.text: law for law in made}
+        named = {_arguments.text(name, key): read(f"{name}[{key!r}]", law) for key, law in given.items()}
+    elif isinstance(given, Iterable) and not isinstance(given, (str, bytes)):
+        made = [read(f"{name}[{i}]", law) for i, law in enumerate(given)]
+        kinds = [law.name for law in made]
+        named = {law.name if kinds.count(law.name) == 1 else law.text: law for law in made}
+    else:
+        law = read(name, given)
+        named = {law.name: law}
+    if not named:
+        raise InvalidInput(f"{name}: at least one law is wanted")
+    return named
 
 
-def _column(name: str, values: npt.ArrayLike) -> list[float]:
-    array = np.atleast_1d(np.asarray(values, dtype=float))
-    if array.ndim != 1:
-        raise InvalidInput(f"{name}: shape {array.shape} is not allowed: one number or a list of them is wanted")
-    return list(array)
+def _tolerance(value: float) -> float:
+    return _arguments.number("tolerance", value, at_least=1e-14, at_most=1e-3)
 
 
 # Restitution --------------------------------------------------------------------------------------------------------
@@ -119,18 +115,23 @@ def restitution(
     InvalidInput
         Where a value is out of its range.
     """
-    if speeds is None:
-        speeds = np.geomspace(0.01, 10, 50)
-    named = _named(normal, _normal)
+    named = _named("normal", normal, "Normal")
+    mass = _arguments.number("mass", mass, "kg", above=0)
+    radius = _arguments.number("radius", radius, "m", above=0, infinite=True)
+    gravity = _arguments.number("gravity", gravity, "m/s^2", at_least=0)
+    tolerance = _tolerance(tolerance)
+    along = _arguments.column("speeds", np.geomspace(0.01, 10, 50) if speeds is None else speeds)
     title = f"Restitution of a sphere of {mass:g} kg" + (f", gravity {gravity:g} m/s^2" if gravity else "")
     table, slowest = _studies.restitution(
-        title, list(named.items()), float(mass), float(radius), _column("speeds", speeds), float(gravity), tolerance
+        title, list(named.items()), mass, radius, along, gravity, tolerance
     )
     return _with_slowest(_labelled(table, "speed", coordinate=True), slowest, gravity)
 
 
 def restitution_figure(number: int, *, tolerance: float = 1e-12) -> xr.Dataset:
     """The curves of figure 2, 3 or 4 of Azad & Featherstone 2010, as :func:`restitution` gives them."""
+    number = _arguments.integer("number", number, 2, 4)
+    tolerance = _tolerance(tolerance)
     table, _ = _studies.restitution_figure(number, tolerance)
     return _labelled(table, "speed", coordinate=True)
 
@@ -196,21 +197,29 @@ def oblique(
     """
     if (speed is None) == (normal_speed is None):
         raise InvalidInput("speed, normal_speed: one of the two is wanted")
-    angle, turning = np.broadcast_arrays(_column("angles", angles), _column("spin", spin))
+    normal = laws._law("normal", normal, "Normal")
+    friction = laws._friction_or_none("friction", friction)
+    mass = _arguments.number("mass", mass, "kg", above=0)
+    radius = _arguments.number("radius", radius, "m", above=0)
+    if inertia is not None:
+        inertia = _arguments.number("inertia", inertia, "kg m^2", above=0)
+    gravity = _arguments.number("gravity", gravity, "m/s^2", at_least=0)
+    if poisson_ratio is not None:
+        poisson_ratio = _arguments.number("poisson_ratio", poisson_ratio, above=-1, at_most=0.5)
+    tolerance = _tolerance(tolerance)
+    name, given = ("normal_speed", normal_speed) if speed is None else ("speed", speed)
+    approach = _arguments.number(name, given, "m/s", above=0)
+    angle, turning = _arguments.column("angles", angles), _arguments.column("spin", spin)
+    try:
+        angle, turning = (array.tolist() for array in np.broadcast_arrays(angle, turning))
+    except ValueError:
+        raise InvalidInput(
+            f"angles, spin: {len(angle)} and {len(turning)} numbers are not allowed: must be as many of both, or one"
+        ) from None
     table, history = _studies.oblique(
-        mass,
-        radius,
-        inertia,
-        _normal(normal),
-        _friction(friction),
-        gravity,
-        tolerance,
-        speed if speed is not None else normal_speed,
-        speed is None,
-        list(angle),
-        list(turning),
+        mass, radius, inertia, normal, friction, gravity, tolerance, approach, speed is None, angle, turning,
         poisson_ratio,
-    )
+    )  # fmt: skip
     parts = _labelled(history, "part")
     return _labelled(table, "impact").assign({f"part_{name}": parts[name] for name in parts.data_vars})
 
@@ -250,12 +259,16 @@ def drive(
     InvalidInput, TooExpensive
         Where a pair of laws cannot be driven; the message names it.
     """
+    if tolerance is not None:
+        tolerance = _tolerance(tolerance)
     if isinstance(rig, Mapping):
         name, file = "rig", _studies.RigFile.parse(to_toml(rig), "rig")
+    elif isinstance(rig, (str, os.PathLike)):
+        name, file = str(rig), _studies.RigFile.load(_arguments.path("rig", rig))
     else:
-        name, file = str(rig), _studies.RigFile.load(Path(rig))
-    normals = _named(file.normal if normal is None else normal, _normal)
-    frictions = _named(file.friction if friction is None else friction, _friction)
+        raise TypeError(f"rig: a path or a dict is wanted, not {_arguments.described(rig)}")
+    normals = _named("normal", file.normal if normal is None else normal, "Normal")
+    frictions = _named("friction", file.friction if friction is None else friction, "Friction")
     pairs = []
     for normal_name, normal_law in normals.items():
         for friction_name, friction_law in frictions.items():
@@ -338,8 +351,21 @@ def materials() -> pd.DataFrame:
     return pd.DataFrame(_studies.material_presets()).set_index("name")
 
 
-def _material(given: str | Material) -> Material:
-    return Material(*_studies.material_preset(given)) if isinstance(given, str) else given
+def _material(name: str, given: str | Material) -> Material:
+    if isinstance(given, str):
+        try:
+            return Material(*_studies.material_preset(_arguments.text(name, given)))
+        except InvalidInput as error:
+            raise InvalidInput(f"{name}: {error}") from None
+    if not isinstance(given, Material):
+        said = _arguments.described(given)
+        raise TypeError(f"{name}: a name of studies.materials() or a Material is wanted, not {said}")
+    density = given.density
+    return Material(
+        _arguments.number(f"{name}.youngs_modulus", given.youngs_modulus, "Pa", above=0, infinite=True),
+        _arguments.number(f"{name}.poisson_ratio", given.poisson_ratio, above=-1, at_most=0.5),
+        None if density is None else _arguments.number(f"{name}.density", density, "kg/m^3", above=0),
+    )
 
 
 def material(
@@ -374,11 +400,15 @@ def material(
     InvalidInput
         Where a value is missing or out of its range, or no damping gives the restitution.
     """
-    ball, plane = _material(sphere), _material(ground)
+    ball, plane = _material("sphere", sphere), _material("ground", ground)
+    radius = _arguments.number("radius", radius, "m", above=0)
     if sum(value is not None for value in (alpha, damping_time, restitution)) != 1:
         raise InvalidInput("alpha, damping_time, restitution: one of the three is wanted")
-    if tangential not in ("paper", "mindlin"):
-        raise InvalidInput(f"tangential: {tangential!r} is not allowed: must be 'paper' or 'mindlin'")
+    _arguments.choice("tangential", tangential, ("paper", "mindlin"))
+    if alpha is not None:
+        alpha = _arguments.number("alpha", alpha, "N s/m^2.5", at_least=0)
+    if damping_time is not None:
+        damping_time = _arguments.number("damping_time", damping_time, "s", at_least=0)
     sides = (ball.youngs_modulus, ball.poisson_ratio), (plane.youngs_modulus, plane.poisson_ratio)
     modulus = _studies.effective_modulus(*sides)
     if alpha is not None:
@@ -386,6 +416,8 @@ def material(
     elif restitution is not None:
         if speed is None:
             raise InvalidInput("speed is missing: the restitution was measured at one")
+        restitution = _arguments.number("restitution", restitution, above=0, at_most=1)
+        speed = _arguments.number("speed", speed, "m/s", above=0)
         if mass is None:
             if ball.density is None:
                 raise InvalidInput("mass is missing: the sphere's material has no density to compute it from")
@@ -404,14 +436,19 @@ def with_restitution(normal: Any, mass: float, speed: float, restitution: float)
 
     Raises InvalidInput where the law has no damping, or none gives that restitution.
     """
-    return _studies.with_restitution(_normal(normal), mass, speed, restitution)
+    return _studies.with_restitution(
+        laws._law("normal", normal, "Normal"),
+        _arguments.number("mass", mass, "kg", above=0),
+        _arguments.number("speed", speed, "m/s", above=0),
+        _arguments.number("restitution", restitution, above=0, at_most=1),
+    )
 
 
 # Parameters from measurements ---------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class LawFit:
+@dataclass(frozen=True, eq=False)
+class LawFit(Compared):
     """What one law makes of the data."""
 
     law: Any
@@ -436,10 +473,14 @@ class LawFit:
     """Akaike's: how likely this law is the best of those compared."""
     converged: bool
 
+    def __repr__(self) -> str:
+        state = "" if self.converged else ", not converged"
+        return f"<footfall.studies.LawFit {self.law!r}: rms {self.rms:.3g}, AICc {self.aicc:.4g}{state}>"
 
-@dataclass(frozen=True)
-class Fit:
-    """A fit of one or more laws to the same data."""
+
+@dataclass(frozen=True, eq=False)
+class Fit(Compared):
+    """A fit of one or more laws to the same data. ``print(fit)`` shows the report."""
 
     dataset: xr.Dataset
     """The data, and each law's model and residuals."""
@@ -449,6 +490,17 @@ class Fit:
     """The one with the smallest AICc."""
     report: str
     """A page for a person, as ``footfall fit`` prints it."""
+
+    def __str__(self) -> str:
+        return self.report.rstrip("\n")
+
+    def __repr__(self) -> str:
+        laws_ = f"{len(self.fits)} law{'s' * (len(self.fits) != 1)}"
+        return f"<footfall.studies.Fit of {laws_} to {self.dataset.sizes['row']} rows: best is {self.best!r}>"
+
+
+#: Points to search from that make sense: with more, somebody has mistaken the argument for another.
+_MOST_STARTS = 1_000_000
 
 
 def fit(
@@ -494,26 +546,41 @@ def fit(
     InvalidInput
         Where something needed is missing or out of its range.
     """
-    if loss not in ("none", "huber", "cauchy"):
-        raise InvalidInput(f"loss: {loss!r} is not allowed: must be 'none', 'huber' or 'cauchy'")
+    _arguments.choice("loss", loss, ("none", "huber", "cauchy"))
+    starts = _arguments.integer("starts", starts, 1, _MOST_STARTS)
+    confidence = _arguments.number("confidence", confidence, above=0)
+    quasistatic = _arguments.flag("quasistatic", quasistatic)
+    sigma_is_true = _arguments.flag("sigma_is_true", sigma_is_true)
+    if isinstance(normal, str):
+        texts = [_arguments.text("normal", normal)]
+    elif isinstance(normal, Iterable) and not isinstance(normal, bytes):
+        texts = [_arguments.text(f"normal[{i}]", text) for i, text in enumerate(normal)]
+    else:
+        raise TypeError(f"normal: a law's text or a list of them is wanted, not {_arguments.described(normal)}")
+    if not texts:
+        raise InvalidInput("normal: at least one law is wanted")
     file, csv = None, ""
     if isinstance(data, pd.DataFrame):
         buffer = io.StringIO()
         data.to_csv(buffer, index=False, float_format="%.17g")
         csv = buffer.getvalue()
+    elif isinstance(data, (str, os.PathLike)):
+        file = _arguments.path("data", data)
     else:
-        file = Path(data)
+        raise TypeError(f"data: a path or a pandas.DataFrame is wanted, not {_arguments.described(data)}")
 
-    def written(value: float | str | None) -> str | None:
-        return None if value is None else value if isinstance(value, str) else repr(float(value))
+    def written(name: str, value: float | str | None) -> str | None:
+        if value is None or isinstance(value, str):
+            return None if value is None else _arguments.text(name, value)
+        return repr(_arguments.number(name, value))
 
     table, results, best, report = _studies.fit(
         file,
         csv,
-        [normal] if isinstance(normal, str) else list(normal),
-        written(mass),
-        written(speed),
-        written(touchdown) or "0",
+        texts,
+        written("mass", mass),
+        written("speed", speed),
+        written("touchdown", touchdown) or "0",
         quasistatic,
         loss,
         starts,

@@ -1,11 +1,18 @@
 // The parts that footfall._core is made of. Each binds one thing; module.cpp calls them in order.
 #pragma once
 
+#include <stdexcept>
+
 #include <nanobind/nanobind.h>
 
 namespace footfall::python {
 
 namespace nb = nanobind;
+
+/// Becomes Python's MemoryError; the message says what was asked for.
+class OutOfMemory : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
 
 /// C++ errors become the exceptions of footfall.errors.
 void bind_errors(nb::module_& module);

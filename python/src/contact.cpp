@@ -1,13 +1,20 @@
 // The contact law by itself over arrays of contacts, with the GIL released.
+//
+// footfall/contact.py gives arrays of the right types and shapes. Whatever is given, nothing here reads or writes past
+// the end of an array: sizes, alignment and overlap are checked before the GIL is let go.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/variant.h>
@@ -19,16 +26,66 @@
 #include "footfall/law/contact_law.hpp"
 #include "footfall/law/friction_state_step.hpp"
 #include "footfall/law/registry.hpp"
+#include "footfall/math/error.hpp"
 
 namespace footfall::python {
 namespace {
 
-// What Python gives has the right types and shapes already: footfall/contact.py sees to it.
 template <class Value>
 using Array = nb::ndarray<Value, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Input = Array<const double>;
 using Numbers = Array<double>;
 using Phases = Array<std::int8_t>;
+
+// Memory -------------------------------------------------------------------------------------------------------------
+
+/// The memory of one array that a call reads or writes.
+struct Block {
+    const char* name;  ///< in messages
+    std::uintptr_t begin, end;
+    bool written, is_phase;
+
+    template <class Value>
+    Block(const char* called, const Array<Value>& array)
+        : name(called),
+          begin(reinterpret_cast<std::uintptr_t>(array.data())),
+          end(begin + array.size() * sizeof(Value)),
+          written(!std::is_const_v<Value>),
+          is_phase(sizeof(Value) == sizeof(std::int8_t)) {
+        if (begin % alignof(Value) != 0) throw InvalidInput(fmt::format("{}: is not aligned in memory", name));
+    }
+    [[nodiscard]] bool overlaps(const Block& other) const noexcept {
+        return begin < other.end && other.begin < end && begin != end && other.begin != other.end;
+    }
+};
+
+template <class Value>
+Block writable(const char* name, const Array<Value>& array, std::size_t count, std::size_t width) {
+    if (array.size() == count * width) return {name, array};
+    throw InvalidInput(
+        fmt::format("{}: has {} numbers; {} contacts have {}", name, array.size(), count, count * width));
+}
+
+template <class Value>
+Block readable(const char* name, const Array<const Value>& array, std::size_t count, std::size_t width) {
+    if (array.size() == count * width || array.size() == width) return {name, array};
+    throw InvalidInput(fmt::format("{}: has {} numbers; one contact has {}, {} contacts have {}", name, array.size(),
+                                   width, count, count * width));
+}
+
+/// What is written must share memory with nothing else. The one exception is a phase that is read where the next is
+/// written, in a loop that feeds it back: each contact's is read before it is written.
+void check_apart(std::initializer_list<Block> blocks) {
+    for (const Block& out : blocks) {
+        if (!out.written) continue;
+        for (const Block& other : blocks) {
+            if (&other == &out || !other.overlaps(out)) continue;
+            if (out.is_phase && other.is_phase && other.begin == out.begin && other.end == out.end) continue;
+            throw InvalidInput(fmt::format("{}: shares memory with {}{}, and would be overwritten while it is in use",
+                                           out.name, other.written ? "" : "the argument ", other.name));
+        }
+    }
+}
 
 /// Values of every contact, or those of one for all of them; `width` numbers for each.
 template <class Value = double>
@@ -58,6 +115,38 @@ struct Steps {
     std::int8_t* phase;
     double *normal_force, *friction_force, *bristle, *tangential_damper, *clutch;
 };
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Whether a response follows from a contact's numbers: none is NaN or infinite. A depth of minus infinity is far above
+/// the ground, where nothing depends on it.
+inline bool computable(double depth, double rate, const Vector2<double>& V, std::span<const double> bristle) noexcept {
+    // 0 x is NaN where x is not finite: additions are cheaper than a branch for each number.
+    double zero = 0 * rate + 0 * V[0] + 0 * V[1];
+    for (const double value : bristle) zero += 0 * value;
+    if (depth != -std::numeric_limits<double>::infinity()) zero += 0 * depth;
+    return zero == 0;
+}
+
+inline void put_nan(const Responses& out, std::size_t states, std::size_t i) noexcept {
+    out.phase[i] = static_cast<std::int8_t>(Phase::flight);
+    std::fill_n(out.friction_force + 2 * i, 2, nan);
+    std::fill_n(out.bristle_rate + states * i, states, nan);
+    for (double* column : {out.normal_force, out.normal_spring, out.tangential_spring, out.normal_damper_power,
+                           out.tangential_damper_power, out.clutch_power, out.stiffness_change_power}) {
+        column[i] = nan;
+    }
+}
+
+inline void put_nan(const Steps& out, std::size_t states, std::size_t i) noexcept {
+    out.phase[i] = static_cast<std::int8_t>(Phase::flight);
+    std::fill_n(out.friction_force + 2 * i, 2, nan);
+    std::fill_n(out.bristle + states * i, states, nan);
+    for (double* column : {out.normal_force, out.tangential_damper, out.clutch}) column[i] = nan;
+}
+
+/// A depth at which the steppers can be called: far above the ground is above it.
+inline double bounded(double depth) noexcept { return std::max(depth, -1.0); }
 
 inline void put(const Vector2<double>& v, double* out) noexcept {
     out[0] = v[0];
@@ -89,9 +178,15 @@ inline void check_signals(std::size_t i) {
 
 template <class Law>
 void evaluate(const Law law, const Contacts in, const Responses out, std::size_t count) noexcept {
+    constexpr std::size_t states = 2;
     for (std::size_t i = 0; i < count; ++i) {
-        const ContactResponse<double> r =
-            law.evaluate(in.depth.number(i), in.depth_rate.number(i), in.slip_velocity.vector(i), in.bristle.vector(i));
+        const double depth = in.depth.number(i), rate = in.depth_rate.number(i);
+        const Vector2<double> V = in.slip_velocity.vector(i), u = in.bristle.vector(i);
+        if (!computable(depth, rate, V, {u.data(), states})) [[unlikely]] {
+            put_nan(out, states, i);
+            continue;
+        }
+        const ContactResponse<double> r = law.evaluate(depth, rate, V, u);
         put(r, out, i);
         put(r.bristle_rate, out.bristle_rate + 2 * i);
     }
@@ -100,10 +195,16 @@ void evaluate(const Law law, const Contacts in, const Responses out, std::size_t
 template <class Law>
 void step(const Law& law, const Contacts& in, double dt, double tolerance, const Steps& out, std::size_t count) {
     const BristleStepper stepper(law, tolerance);
+    constexpr std::size_t states = 2;
     for (std::size_t i = 0; i < count; ++i) {
         check_signals(i);
-        const BristleStep r =
-            stepper(in.depth.number(i), in.depth_rate.number(i), in.slip_velocity.vector(i), in.bristle.vector(i), dt);
+        const double depth = in.depth.number(i), rate = in.depth_rate.number(i);
+        const Vector2<double> V = in.slip_velocity.vector(i), u = in.bristle.vector(i);
+        if (!computable(depth, rate, V, {u.data(), states})) {
+            put_nan(out, states, i);
+            continue;
+        }
+        const BristleStep r = stepper(bounded(depth), rate, V, u, dt);
         out.phase[i] = static_cast<std::int8_t>(r.phase);
         out.normal_force[i] = r.normal_force;
         put(r.mean_friction_force, out.friction_force + 2 * i);
@@ -137,11 +238,15 @@ inline Touch touch(const StatesLaw& law, double depth, double depth_rate, std::i
 void evaluate(const StatesLaw& law, const Contacts& in, const Responses& out, std::size_t count) noexcept {
     const auto states = static_cast<std::size_t>(law.friction.state_count());
     for (std::size_t i = 0; i < count; ++i) {
-        const double rate = in.depth_rate.number(i);
-        const Touch at = touch(law, in.depth.number(i), rate, in.phase.number(i));
-        put(law.respond(at.phase, at.s, rate, in.slip_velocity.vector(i), {in.bristle.at(i), states},
-                        {out.bristle_rate + states * i, states}),
-            out, i);
+        const double depth = in.depth.number(i), rate = in.depth_rate.number(i);
+        const Vector2<double> V = in.slip_velocity.vector(i);
+        const std::span<const double> x(in.bristle.at(i), states);
+        if (!computable(depth, rate, V, x)) {
+            put_nan(out, states, i);
+            continue;
+        }
+        const Touch at = touch(law, depth, rate, in.phase.number(i));
+        put(law.respond(at.phase, at.s, rate, V, x, {out.bristle_rate + states * i, states}), out, i);
     }
 }
 
@@ -150,13 +255,18 @@ void step(const StatesLaw& law, const Contacts& in, double dt, double tolerance,
     const auto states = static_cast<std::size_t>(law.friction.state_count());
     for (std::size_t i = 0; i < count; ++i) {
         check_signals(i);
-        const double rate = in.depth_rate.number(i);
-        const Touch at = touch(law, in.depth.number(i), rate, in.phase.number(i));
+        const double depth = in.depth.number(i), rate = in.depth_rate.number(i);
+        const Vector2<double> V = in.slip_velocity.vector(i);
+        if (!computable(depth, rate, V, {in.bristle.at(i), states})) {
+            put_nan(out, states, i);
+            continue;
+        }
+        const Touch at = touch(law, depth, rate, in.phase.number(i));
         const bool loaded = at.phase == Phase::stick || at.phase == Phase::slip;
         const double F_n = loaded ? law.normal.force(at.s, rate).total() : 0;
         const std::span<double> x(out.bristle + states * i, states);
         std::copy_n(in.bristle.at(i), states, x.begin());
-        const FrictionStateStep r = stepper(at.phase, F_n, in.slip_velocity.vector(i), x, dt);
+        const FrictionStateStep r = stepper(at.phase, F_n, V, x, dt);
         out.phase[i] = static_cast<std::int8_t>(loaded ? r.phase : at.phase);
         out.normal_force[i] = F_n;
         put(r.mean_friction_force, out.friction_force + 2 * i);
@@ -193,6 +303,9 @@ public:
             friction_);
     }
 
+    /// states(), as a count of numbers in an array.
+    [[nodiscard]] std::size_t width() const noexcept { return static_cast<std::size_t>(states()); }
+
     template <class Work>
     void visit(Work&& work) const {
         std::visit(
@@ -224,11 +337,7 @@ void bind_contact(nb::module_& module) {
 
     const auto contacts_of = [](const Law& law, const Input& depth, const Input& depth_rate, const Input& slip_velocity,
                                 const Input& bristle, const Array<const std::int8_t>& phase) {
-        return Contacts{{depth, 1},
-                        {depth_rate, 1},
-                        {slip_velocity, 2},
-                        {bristle, static_cast<std::size_t>(law.states())},
-                        {phase, 1}};
+        return Contacts{{depth, 1}, {depth_rate, 1}, {slip_velocity, 2}, {bristle, law.width()}, {phase, 1}};
     };
 
     nb::class_<Law>(module, "ContactLaw", "A normal law and a friction law over flat arrays.")
@@ -245,6 +354,20 @@ void bind_contact(nb::module_& module) {
                           const Numbers& normal_spring, const Numbers& tangential_spring,
                           const Numbers& normal_damper_power, const Numbers& tangential_damper_power,
                           const Numbers& clutch_power, const Numbers& stiffness_change_power) {
+                const std::size_t count = phase.size(), states = self.width();
+                check_apart({readable("depth", depth, count, 1), readable("depth_rate", depth_rate, count, 1),
+                             readable("slip_velocity", slip_velocity, count, 2),
+                             readable("bristle", bristle, count, states), readable("phase", was, count, 1),
+                             writable("out.phase", phase, count, 1),
+                             writable("out.normal_force", normal_force, count, 1),
+                             writable("out.friction_force", friction_force, count, 2),
+                             writable("out.bristle_rate", bristle_rate, count, states),
+                             writable("out.normal_spring", normal_spring, count, 1),
+                             writable("out.tangential_spring", tangential_spring, count, 1),
+                             writable("out.normal_damper_power", normal_damper_power, count, 1),
+                             writable("out.tangential_damper_power", tangential_damper_power, count, 1),
+                             writable("out.clutch_power", clutch_power, count, 1),
+                             writable("out.stiffness_change_power", stiffness_change_power, count, 1)});
                 const Contacts in = contacts_of(self, depth, depth_rate, slip_velocity, bristle, was);
                 const Responses out{phase.data(),
                                     normal_force.data(),
@@ -256,10 +379,14 @@ void bind_contact(nb::module_& module) {
                                     tangential_damper_power.data(),
                                     clutch_power.data(),
                                     stiffness_change_power.data()};
-                const std::size_t count = phase.size();
                 const nb::gil_scoped_release free;
                 self.visit([&](const auto& law) { evaluate(law, in, out, count); });
             },
+            // Nothing is converted: a copy would be written in place of the array.
+            nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
+            nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
+            nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
+            nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
             nb::sig("def evaluate(self, *arrays: object) -> None"))
         .def(
             "step",
@@ -267,13 +394,25 @@ void bind_contact(nb::module_& module) {
                           const Input& bristle, const Array<const std::int8_t>& was, double dt, double tolerance,
                           const Phases& phase, const Numbers& normal_force, const Numbers& friction_force,
                           const Numbers& new_bristle, const Numbers& tangential_damper, const Numbers& clutch) {
+                const std::size_t count = phase.size(), states = self.width();
+                check_apart({readable("depth", depth, count, 1), readable("depth_rate", depth_rate, count, 1),
+                             readable("slip_velocity", slip_velocity, count, 2),
+                             readable("bristle", bristle, count, states), readable("phase", was, count, 1),
+                             writable("out.phase", phase, count, 1),
+                             writable("out.normal_force", normal_force, count, 1),
+                             writable("out.friction_force", friction_force, count, 2),
+                             writable("out.bristle", new_bristle, count, states),
+                             writable("out.tangential_damper", tangential_damper, count, 1),
+                             writable("out.clutch", clutch, count, 1)});
                 const Contacts in = contacts_of(self, depth, depth_rate, slip_velocity, bristle, was);
                 const Steps out{phase.data(),       normal_force.data(),      friction_force.data(),
                                 new_bristle.data(), tangential_damper.data(), clutch.data()};
-                const std::size_t count = phase.size();
                 const nb::gil_scoped_release free;
                 self.visit([&](const auto& law) { step(law, in, dt, tolerance, out, count); });
             },
+            nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
+            nb::arg().noconvert(), nb::arg(), nb::arg(), nb::arg().noconvert(), nb::arg().noconvert(),
+            nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
             nb::sig("def step(self, *arrays: object) -> None"));
 }
 

@@ -1,4 +1,8 @@
 // C++ errors as Python exceptions, with the same message.
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+#include <string>
 #include <system_error>
 
 #include "bind.hpp"
@@ -8,6 +12,8 @@
 
 namespace footfall::python {
 namespace {
+
+constexpr const char* no_memory = "what was asked for needs more memory than there is";
 
 void raise(const char* type, const char* message) {
     const nb::object exception = nb::module_::import_("footfall.errors").attr(type);
@@ -26,11 +32,11 @@ void raise(const ScenarioError& error) {
 }
 
 /// A file that cannot be read: OSError's own subclass for the reason, with our message.
-void raise(const std::system_error& error) {
+void raise(const std::system_error& error, const std::string& message) {
     const int number = error.code().value();
     const nb::object os_error = nb::module_::import_("builtins").attr("OSError");
     const nb::object type = nb::borrow(os_error(number, "").type());
-    const nb::object exception = type(nb::str(error.what()));
+    const nb::object exception = type(nb::str(message.c_str()));
     exception.attr("errno") = number;
     PyErr_SetObject(type.ptr(), exception.ptr());
 }
@@ -49,8 +55,17 @@ void bind_errors(nb::module_& /*module*/) {
             raise("TooExpensive", error.what());
         } catch (const Interrupted& error) {
             raise("Interrupted", error.what());
+        } catch (const std::filesystem::filesystem_error& error) {
+            // Its what() begins with the words of the library.
+            raise(error, error.path1().string() + ": " + error.code().message());
         } catch (const std::system_error& error) {
-            raise(error);
+            raise(error, error.what());
+        } catch (const OutOfMemory& error) {
+            PyErr_SetString(PyExc_MemoryError, error.what());
+        } catch (const std::bad_alloc&) {
+            PyErr_SetString(PyExc_MemoryError, no_memory);
+        } catch (const std::length_error&) {
+            PyErr_SetString(PyExc_MemoryError, no_memory);
         }
     });
 }

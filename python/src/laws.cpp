@@ -68,6 +68,14 @@ std::string init_signature() {
     return text + ") -> None";
 }
 
+/// "stiffness=..., damping=..."
+template <class Law>
+std::string named_parameters() {
+    std::string text;
+    for (const auto& p : Law::parameters()) text += fmt::format("{}{}=...", text.empty() ? "" : ", ", p.key);
+    return text;
+}
+
 template <class Law>
 std::string representation(const Law& law, const std::string& name) {
     std::string text;
@@ -77,11 +85,20 @@ std::string representation(const Law& law, const std::string& name) {
     return fmt::format("{}({})", name, text);
 }
 
+std::string kind_of(const nb::handle& given) {
+    return nb::cast<std::string>(nb::handle(given.type().attr("__name__")));
+}
+
+/// The text of a Python string, as UTF-8; what has none (a lone surrogate) is shown as its escape.
+std::string text_of(const nb::handle& given) {
+    return nb::cast<std::string>(given.attr("encode")("utf-8", "backslashreplace").attr("decode")("utf-8"));
+}
+
 template <class Parameter>
 double value_of(const nb::handle& given, const Parameter& p) {
     if (nb::isinstance<nb::str>(given) && !p.unit_depends) {
         try {
-            return to_si(nb::cast<std::string>(given), p.unit);
+            return to_si(text_of(given), p.unit);
         } catch (const InvalidInput& error) {
             throw InvalidInput(fmt::format("{}: {}", p.key, error.what()));
         }
@@ -89,8 +106,8 @@ double value_of(const nb::handle& given, const Parameter& p) {
     try {
         return nb::cast<double>(given);
     } catch (const nb::cast_error&) {
-        throw nb::type_error(fmt::format("{}: a number in {} is wanted{}", p.key, p.unit,
-                                         p.unit_depends ? "" : ", or a string with a unit")
+        throw nb::type_error(fmt::format("{}: a number in {} is wanted{}, not {}", p.key, p.unit,
+                                         p.unit_depends ? "" : " or a string with a unit", kind_of(given))
                                  .c_str());
     }
 }
@@ -139,7 +156,11 @@ void bind_law(nb::module_& laws, std::string_view kind) {
     auto type = nb::class_<Law>(laws, keep(name), keep(documentation<Law>()));
     type.def(
         "__init__",
-        [name](Law* self, const nb::kwargs& arguments) {
+        [name](Law* self, const nb::args& unnamed, const nb::kwargs& arguments) {
+            if (unnamed.size() > 0) {
+                throw nb::type_error(
+                    fmt::format("{0}() takes its parameters by name: {0}({1})", name, named_parameters<Law>()).c_str());
+            }
             const Law law = from_arguments<Law>(arguments, name);
             check_alone(Variant(law), name);
             new (self) Law(law);
@@ -162,7 +183,12 @@ void bind_law(nb::module_& laws, std::string_view kind) {
             return true;
         },
         nb::sig("def __eq__(self, other: object, /) -> bool"));
-    type.def("__hash__", [name](const Law& law) { return std::hash<std::string>{}(representation(law, name)); });
+    type.def("__hash__", [name](const Law& law) {
+        std::size_t hash = std::hash<std::string>{}(name);
+        // Not the text of the numbers: 0 and -0 are equal and must have the same hash.
+        for (const auto& p : Law::parameters()) hash = hash * 31 + std::hash<double>{}(law.*p.member);
+        return hash;
+    });
     type.def("__reduce__", [name](const nb::object& self) {
         nb::dict values;
         for (const auto& p : Law::parameters()) {

@@ -1,6 +1,8 @@
 // A run as named arrays: what RUN.nc holds, for footfall/results.py to label.
 #include "footfall/simulate/run.hpp"
 
+#include <new>
+#include <stdexcept>
 #include <string>
 
 #include <fmt/format.h>
@@ -10,12 +12,21 @@
 
 #include "arrays.hpp"
 #include "bind.hpp"
+#include "footfall/io/output.hpp"
 #include "io/run_dataset.hpp"
 #include "named_scenario.hpp"
 #include "progress.hpp"
 
 namespace footfall::python {
 namespace {
+
+/// What a run that finds no memory has asked for.
+std::string out_of_memory(const std::string& name, const Simulation& simulation) {
+    const RunOptions& options = simulation.options;
+    if (!(options.sample_period > 0)) return fmt::format("{}: the run needs more memory than there is", name);
+    return fmt::format("{}: the run needs more memory than there is: {:.3g} samples, one every {} s for {} s", name,
+                       options.end_time / options.sample_period + 1, options.sample_period, options.end_time);
+}
 
 /// The run of a scenario, its errors named as the command line names them.
 Run run_named(const NamedScenario& named, std::optional<double> tolerance, const nb::object& progress) {
@@ -31,6 +42,10 @@ Run run_named(const NamedScenario& named, std::optional<double> tolerance, const
         throw TooExpensive(fmt::format("{}: {}", named.name, error.what()));
     } catch (const Interrupted&) {
         throw Interrupted(fmt::format("{}: interrupted", named.name));
+    } catch (const std::bad_alloc&) {
+        throw OutOfMemory(out_of_memory(named.name, simulation));
+    } catch (const std::length_error&) {
+        throw OutOfMemory(out_of_memory(named.name, simulation));
     }
 }
 
@@ -93,10 +108,11 @@ void bind_run(nb::module_& module) {
             const Run result = run_named(scenario, tolerance, progress);
             NamedScenario as_run = scenario;
             if (tolerance) as_run.scenario.simulation.options.tolerance = *tolerance;
-            return nb::make_tuple(as_arrays(io::run_dataset(as_run.scenario, result)), result.cost.wall_seconds);
+            return nb::make_tuple(as_arrays(io::run_dataset(as_run.scenario, result)), result.cost.wall_seconds,
+                                  summary(as_run.scenario, result));
         },
         nb::arg("scenario"), nb::arg("tolerance").none(), nb::arg("progress").none(),
-        "Runs a scenario: ((attributes, variables), wall_seconds).");
+        "Runs a scenario: ((attributes, variables), wall_seconds, the page for a person).");
 }
 
 }  // namespace footfall::python

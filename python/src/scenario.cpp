@@ -11,6 +11,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bind.hpp"
+#include "footfall/io/output.hpp"
 #include "named_scenario.hpp"
 
 namespace footfall::python {
@@ -70,6 +71,9 @@ void bind_scenario(nb::module_& module) {
         .def_ro("name", &NamedScenario::name)
         .def_prop_ro("title", [](const NamedScenario& s) { return s.scenario.title; })
         .def_prop_ro("text", [](const NamedScenario& s) { return s.scenario.text; })
+        .def(
+            "summary", [](const NamedScenario& s) { return summary(s.scenario); },
+            "What the scenario describes, as a page for a person.")
         .def_prop_ro(
             "simulation", [](const NamedScenario& s) -> const Simulation& { return s.scenario.simulation; },
             nb::rv_policy::reference_internal);

@@ -352,14 +352,18 @@ std::string cost(const Run& run) {
 
 }  // namespace
 
+std::string summary(const Scenario& scenario) {
+    const RunOptions& options = scenario.simulation.options;
+    const std::string title = scenario.title.empty() ? "A run without a title" : scenario.title;
+    return fmt::format("{}\n{}\n  {} s at a relative tolerance of {}\n\n{}", title,
+                       text::repeat("━", std::min(text::width(title), page_width)), number(options.end_time),
+                       number(options.tolerance), setup(scenario));
+}
+
 std::string summary(const Scenario& scenario, const Run& run) {
     const RunOptions& options = scenario.simulation.options;
     const bool several_spheres = scenario.simulation.body.spheres.size() > 1;
-    const std::string title = scenario.title.empty() ? "A run without a title" : scenario.title;
-    std::string page = fmt::format("{}\n{}\n", title, text::repeat("━", std::min(text::width(title), page_width)));
-    page +=
-        fmt::format("  {} s at a relative tolerance of {}\n\n", number(options.end_time), number(options.tolerance));
-    page += setup(scenario);
+    std::string page = summary(scenario);
     page += event_table(run.events, options.end_time, several_spheres);
     page += impact_table(run.impacts, options.end_time, several_spheres);
     page += final_state(run.final);

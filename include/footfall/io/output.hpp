@@ -28,6 +28,10 @@ void check_csv_directory(const std::filesystem::path& directory);
 /// reads back exactly; what has not happened is null.
 [[nodiscard]] std::string to_json(const Scenario& scenario, const Run& run);
 
+/// What the scenario describes, as the head of a run's page: title, time, body, ground, start and laws with their
+/// units.
+[[nodiscard]] std::string summary(const Scenario& scenario);
+
 /// The run as a page of text for a person: UTF-8, at most 100 columns, a few dozen lines whatever the run was.
 [[nodiscard]] std::string summary(const Scenario& scenario, const Run& run);
 

@@ -1,0 +1,169 @@
+"""What callers give, read and checked: errors name the argument, what it is, and what is wanted."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from footfall.errors import InvalidInput
+
+Floats = npt.NDArray[np.float64]
+
+
+def described(value: object) -> str:
+    """What a value is, for a message."""
+    if value is None:
+        return "None"
+    if isinstance(value, str):
+        return f"the text {value if len(value) <= 40 else value[:37] + '...'!r}"
+    if isinstance(value, np.ndarray):
+        return f"an array of {value.dtype}, shape {value.shape}"
+    return type(value).__name__
+
+
+def number(
+    name: str,
+    value: Any,
+    unit: str = "",
+    *,
+    above: float | None = None,
+    at_least: float | None = None,
+    at_most: float | None = None,
+    infinite: bool = False,
+) -> float:
+    """One real number. TypeError where it is none; InvalidInput where it is NaN or out of its range."""
+    wanted = f"one number in {unit}" if unit else "one number"
+    if isinstance(value, (str, bytes, bytearray, bool, np.bool_)) or getattr(value, "ndim", 0) != 0:
+        raise TypeError(f"{name}: {wanted} is wanted, not {described(value)}")
+    try:
+        result = float(value)
+    except OverflowError:
+        raise InvalidInput(f"{name}: is not allowed: larger than any number that can be computed with") from None
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: {wanted} is wanted, not {described(value)}") from None
+    limits = [
+        f"{sign} {limit:g}" for sign, limit in ((">", above), (">=", at_least), ("<=", at_most)) if limit is not None
+    ]
+    right = (
+        not math.isnan(result)
+        and (infinite or math.isfinite(result))
+        and (above is None or result > above)
+        and (at_least is None or result >= at_least)
+        and (at_most is None or result <= at_most)
+    )
+    if not right:
+        rule = [*limits, *(["finite"] if not infinite else ["a number"] if not limits else [])]
+        raise InvalidInput(
+            f"{name}: {result:g}{' ' * bool(unit)}{unit} is not allowed: must be {' and '.join(rule)}"
+        )
+    return result
+
+
+def integer(name: str, value: Any, low: int, high: int | None = None, meaning: str = "") -> int:
+    """One whole number from ``low`` to ``high``; what it is an index into, say, is ``meaning``."""
+    if isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name}: a whole number is wanted, not bool")
+    try:
+        result = value.__index__()
+    except (AttributeError, TypeError):
+        raise TypeError(f"{name}: a whole number is wanted, not {described(value)}") from None
+    if result < low or (high is not None and result > high):
+        allowed = f">= {low}" if high is None else f"from {low} to {high}"
+        raise InvalidInput(f"{name}: {result} is not allowed: must be {allowed}{meaning}")
+    return int(result)
+
+
+def real_array(name: str, value: Any) -> npt.NDArray[Any]:
+    """An array of real numbers, of any shape and number type."""
+    if isinstance(value, np.ma.MaskedArray):
+        value = value.astype(np.float64).filled(np.nan)  # what is masked is not known
+    try:
+        array = np.asarray(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: real numbers are wanted, in lists of equal length where they are nested") from None
+    if array.dtype.kind not in "fiub":
+        kind = "complex numbers" if array.dtype.kind == "c" else described(value)
+        raise TypeError(f"{name}: real numbers are wanted, not {kind}")
+    return array
+
+
+def column(name: str, values: Any) -> list[float]:
+    """One number or a list of them."""
+    array = np.atleast_1d(real_array(name, values))
+    if array.ndim != 1:
+        raise InvalidInput(f"{name}: shape {array.shape} is not allowed: one number or a list of them is wanted")
+    numbers: list[float] = array.astype(np.float64).tolist()
+    for i, value in enumerate(numbers):
+        if not math.isfinite(value):
+            raise InvalidInput(f"{name}: {value:g} at index {i} is not allowed: must be finite")
+    return numbers
+
+
+def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
+    """One of a few words."""
+    if not isinstance(value, str) or value not in allowed:
+        said = repr(value) if isinstance(value, str) else described(value)
+        *most, last = (repr(word) for word in allowed)
+        raise InvalidInput(f"{name}: {said} is not allowed: must be {', '.join(most)}{' or ' if most else ''}{last}")
+    return value
+
+
+def flag(name: str, value: Any) -> bool:
+    """True or False."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name}: True or False is wanted, not {described(value)}")
+    return bool(value)
+
+
+def text(name: str, value: Any) -> str:
+    """A text that can be written as UTF-8."""
+    if not isinstance(value, str):
+        raise TypeError(f"{name}: a text is wanted, not {described(value)}")
+    try:
+        value.encode()
+    except UnicodeEncodeError as error:
+        raise InvalidInput(
+            f"{name}: the character {value[error.start]!r} at index {error.start} is not allowed: it is half of one"
+        ) from None
+    return value
+
+
+def path(name: str, value: Any) -> Path:
+    """A path of a file or folder."""
+    if not isinstance(value, (str, os.PathLike)):
+        raise TypeError(f"{name}: a path is wanted, not {described(value)}")
+    result = Path(os.fsdecode(value))
+    if "\0" in str(result):
+        raise InvalidInput(f"{name}: {str(result)!r} is not allowed: no path has a null character")
+    return result
+
+
+def folder(name: str, value: Any) -> Path:
+    """A folder to write into, made where it is missing. OSError where it cannot be made."""
+    result = path(name, value)
+    try:
+        result.mkdir(parents=True, exist_ok=True)
+    except FileExistsError as error:
+        raise os_error(error.errno or 0, f"cannot write into {result}: it is a file, not a folder") from None
+    except OSError as error:
+        raise os_error(error.errno or 0, f"cannot make the folder {result}: {error.strerror}") from None
+    return result
+
+
+def function(name: str, value: Any) -> None:
+    """A function, or None."""
+    if value is not None and not callable(value):
+        raise TypeError(f"{name}: a function is wanted, not {described(value)}")
+
+
+def os_error(number: int, message: str) -> OSError:
+    """The OSError of the system's number, with a message of ours."""
+    error = type(OSError(number, ""))(message)
+    error.errno = number
+    return error
