@@ -74,4 +74,5 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     drawing = _DRAWING if importlib.util.find_spec("matplotlib") else ()
-    return sorted({*globals(), *__all__, *drawing})
+    own = (name for name in globals() if name.startswith("__"))
+    return sorted({*own, *__all__, *drawing})

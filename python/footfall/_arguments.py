@@ -47,22 +47,46 @@ def number(
         raise InvalidInput(f"{name}: is not allowed: larger than any number that can be computed with") from None
     except (TypeError, ValueError):
         raise TypeError(f"{name}: {wanted} is wanted, not {described(value)}") from None
-    limits = [
-        f"{sign} {limit:g}" for sign, limit in ((">", above), (">=", at_least), ("<=", at_most)) if limit is not None
-    ]
-    right = (
-        not math.isnan(result)
-        and (infinite or math.isfinite(result))
-        and (above is None or result > above)
-        and (at_least is None or result >= at_least)
-        and (at_most is None or result <= at_most)
-    )
-    if not right:
-        rule = [*limits, *(["finite"] if not infinite else ["a number"] if not limits else [])]
-        raise InvalidInput(
-            f"{name}: {result:g}{' ' * bool(unit)}{unit} is not allowed: must be {' and '.join(rule)}"
-        )
+    if not _within(result, above, at_least, at_most, None, infinite=infinite):
+        rule = _rule(above, at_least, at_most, None, infinite=infinite)
+        raise InvalidInput(f"{name}: {_with_unit(result, unit)} is not allowed: must be {rule}")
     return result
+
+
+def _with_unit(value: float, unit: str) -> str:
+    return f"{value:g} {unit}" if unit else f"{value:g}"
+
+
+def _within(
+    value: float,
+    above: float | None,
+    at_least: float | None,
+    at_most: float | None,
+    below: float | None,
+    *,
+    infinite: bool,
+) -> bool:
+    return (
+        not math.isnan(value)
+        and (infinite or math.isfinite(value))
+        and (above is None or value > above)
+        and (at_least is None or value >= at_least)
+        and (at_most is None or value <= at_most)
+        and (below is None or value < below)
+    )
+
+
+def _rule(
+    above: float | None, at_least: float | None, at_most: float | None, below: float | None, *, infinite: bool
+) -> str:
+    """What is allowed, in words."""
+    if at_least is not None and at_most is not None:
+        return f"from {at_least:g} to {at_most:g}"
+    limits = ((">", above), (">=", at_least), ("<=", at_most), ("<", below))
+    rules = [f"{sign} {limit:g}" for sign, limit in limits if limit is not None]
+    if not infinite and at_most is None and below is None:
+        rules.append("finite")
+    return " and ".join(rules) or "a number"
 
 
 def integer(name: str, value: Any, low: int, high: int | None = None, meaning: str = "") -> int:
@@ -75,7 +99,8 @@ def integer(name: str, value: Any, low: int, high: int | None = None, meaning: s
         raise TypeError(f"{name}: a whole number is wanted, not {described(value)}") from None
     if result < low or (high is not None and result > high):
         allowed = f">= {low}" if high is None else f"from {low} to {high}"
-        raise InvalidInput(f"{name}: {result} is not allowed: must be {allowed}{meaning}")
+        said = str(result) if abs(result) < 10**20 else "so large a number"
+        raise InvalidInput(f"{name}: {said} is not allowed: must be {allowed}{meaning}")
     return int(result)
 
 
@@ -93,22 +118,34 @@ def real_array(name: str, value: Any) -> npt.NDArray[Any]:
     return array
 
 
-def column(name: str, values: Any) -> list[float]:
-    """One number or a list of them."""
+def column(
+    name: str,
+    values: Any,
+    unit: str = "",
+    *,
+    above: float | None = None,
+    at_least: float | None = None,
+    below: float | None = None,
+) -> list[float]:
+    """One number or a list of them, each finite and in the range."""
     array = np.atleast_1d(real_array(name, values))
     if array.ndim != 1:
         raise InvalidInput(f"{name}: shape {array.shape} is not allowed: one number or a list of them is wanted")
+    if array.size == 0:
+        raise InvalidInput(f"{name}: an empty list is not allowed: at least one number is wanted")
     numbers: list[float] = array.astype(np.float64).tolist()
     for i, value in enumerate(numbers):
-        if not math.isfinite(value):
-            raise InvalidInput(f"{name}: {value:g} at index {i} is not allowed: must be finite")
+        if not _within(value, above, at_least, None, below, infinite=False):
+            where = f" at index {i}" if len(numbers) > 1 else ""
+            rule = _rule(above, at_least, None, below, infinite=False)
+            raise InvalidInput(f"{name}: {_with_unit(value, unit)}{where} is not allowed: must be {rule}")
     return numbers
 
 
 def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
     """One of a few words."""
     if not isinstance(value, str) or value not in allowed:
-        said = repr(value) if isinstance(value, str) else described(value)
+        said = repr(value) if isinstance(value, (str, int, float)) else described(value)
         *most, last = (repr(word) for word in allowed)
         raise InvalidInput(f"{name}: {said} is not allowed: must be {', '.join(most)}{' or ' if most else ''}{last}")
     return value
@@ -121,8 +158,8 @@ def flag(name: str, value: Any) -> bool:
     return bool(value)
 
 
-def text(name: str, value: Any) -> str:
-    """A text that can be written as UTF-8."""
+def text(name: str, value: Any, *, null: bool = False) -> str:
+    """A text that can be written as UTF-8, without null characters where ``null`` does not allow them."""
     if not isinstance(value, str):
         raise TypeError(f"{name}: a text is wanted, not {described(value)}")
     try:
@@ -131,6 +168,8 @@ def text(name: str, value: Any) -> str:
         raise InvalidInput(
             f"{name}: the character {value[error.start]!r} at index {error.start} is not allowed: it is half of one"
         ) from None
+    if "\0" in value and not null:
+        raise InvalidInput(f"{name}: {value[:40]!r} is not allowed: it has a null character")
     return value
 
 
@@ -139,6 +178,10 @@ def path(name: str, value: Any) -> Path:
     if not isinstance(value, (str, os.PathLike)):
         raise TypeError(f"{name}: a path is wanted, not {described(value)}")
     result = Path(os.fsdecode(value))
+    try:
+        os.fsencode(result)
+    except UnicodeEncodeError:
+        raise InvalidInput(f"{name}: {str(result)!r} is not allowed: no path has half a character") from None
     if "\0" in str(result):
         raise InvalidInput(f"{name}: {str(result)!r} is not allowed: no path has a null character")
     return result

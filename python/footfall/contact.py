@@ -152,8 +152,9 @@ def _refuse_output(
         order = {">": ", big-endian", "<": ", little-endian"}.get(array.dtype.byteorder, "")
         raise InvalidInput(f"out.{name}: an array of {array.dtype.newbyteorder('=')}{order} is not allowed: {must}")
     if array.shape != wanted:
-        theirs = getattr(out.phase, "shape", None)
-        if theirs is not None and theirs != shape and array.shape[: len(theirs)] == theirs:
+        shapes = [np.shape(getattr(out, other))[: None if width is None else -1] for other, _, width in _COLUMNS]
+        theirs = shapes[0]
+        if theirs != shape and all(other == theirs for other in shapes):
             raise InvalidInput(
                 f"out: is for contacts of shape {theirs}, the arguments are for contacts of shape {shape}: "
                 f"out.{name} has shape {array.shape} and must have {wanted}"

@@ -97,6 +97,8 @@ def make(run: Run, out: Path, drawings: Sequence[Drawing] = WHOLE) -> list[tuple
     if not isinstance(run, Run):
         said = _arguments.described(run)
         raise TypeError(f"run: a run is wanted, as footfall.run and footfall.open give it, not {said}")
+    if not isinstance(drawings, (list, tuple)) or not all(isinstance(drawing, Drawing) for drawing in drawings):
+        raise TypeError("drawings: Drawings are wanted, such as figures.WHOLE or figures.IMPACT")
     if drawings is IMPACT and not run.impacts:
         raise InvalidInput("run: has no impact to draw")
     out = _arguments.folder("out", out)

@@ -36,7 +36,8 @@ _KINDS = {
 def _law(name: str, given: Any, kind: str) -> Any:
     """A law of the kind, ``Normal`` or ``Friction``, that was given as such or as its text to the argument ``name``."""
     if isinstance(given, str):
-        return (normal if kind == "Normal" else friction)(given)
+        read = _laws.normal if kind == "Normal" else _laws.friction
+        return read(_arguments.text(name, given))
     if isinstance(given, _KINDS[kind]):
         return given
     other = "Friction" if kind == "Normal" else "Normal"

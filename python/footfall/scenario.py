@@ -33,7 +33,7 @@ class Scenario:
 
     def __init__(self, core: _core.Scenario) -> None:
         if not isinstance(core, _core.Scenario):
-            raise TypeError("Scenario: make one with Scenario.load, Scenario.parse or Scenario.from_dict")
+            raise TypeError("Scenario(core): make one with Scenario.load, Scenario.parse or Scenario.from_dict")
         self._core = core
 
     @classmethod
@@ -47,25 +47,12 @@ class Scenario:
         OSError
             Where it cannot be read.
         """
-        file = _arguments.path("path", path)
-        shipped = shipped_scenarios()
-        if str(file) in shipped and not os.path.lexists(file):
-            file = shipped[str(file)]
-        try:
-            return cls(_core.Scenario.load(file))
-        except FileNotFoundError as error:
-            meant = difflib.get_close_matches(file.stem, shipped, n=3)
-            if meant:
-                names = " or ".join(f"'{name}'" for name in meant)
-                raise _arguments.os_error(
-                    error.errno, f"{error}; did you mean the shipped scenario {names}?"
-                ) from None
-            raise
+        return cls(_load("path", path))
 
     @classmethod
     def parse(cls, text: str, name: str = "scenario") -> Scenario:
         """Reads a scenario from its text; ``name`` stands for the file in messages. Raises ScenarioError."""
-        return cls(_core.Scenario.parse(_arguments.text("text", text), _arguments.text("name", name)))
+        return cls(_core.Scenario.parse(_arguments.text("text", text, null=True), _arguments.text("name", name)))
 
     @classmethod
     def from_dict(cls, tables: Mapping[str, Any], name: str = "scenario") -> Scenario:
@@ -116,6 +103,23 @@ class Scenario:
         return _parse, (self.text, self.name)
 
 
+def _load(argument: str, path: str | os.PathLike[str]) -> _core.Scenario:
+    """The scenario in a file, or the shipped one of that name; ``argument`` is what the caller calls the path."""
+    file = _arguments.path(argument, path)
+    shipped = shipped_scenarios()
+    if str(file) in shipped and not os.path.lexists(file):
+        file = shipped[str(file)]
+    try:
+        return _core.Scenario.load(file)
+    except FileNotFoundError as error:
+        meant = [file.stem] if file.stem in shipped else difflib.get_close_matches(file.stem, shipped, n=3)
+        if not meant:
+            raise
+        names = " or ".join(f"'{name}'" for name in meant)
+        message = f"{error}; did you mean the shipped scenario {names}?"
+        raise _arguments.os_error(error.errno or 0, message) from None
+
+
 def _parse(text: str, name: str) -> Scenario:
     return Scenario.parse(text, name)
 
@@ -125,31 +129,38 @@ def to_toml(tables: Mapping[str, Any]) -> str:
 
     Raises InvalidInput where a value is of a kind that TOML does not have, with the key.
     """
+    return document("tables", tables)
+
+
+def document(argument: str, tables: Mapping[str, Any]) -> str:
+    """The TOML text of dicts that were given as ``argument``."""
     if not isinstance(tables, Mapping):
-        raise TypeError(f"tables: a dict nested as a scenario's tables is wanted, not {_arguments.described(tables)}")
+        raise TypeError(f"{argument}: a dict nested as the file's tables is wanted, not {_arguments.described(tables)}")
     try:
-        return tomli_w.dumps(_plain(tables, ""))
+        return tomli_w.dumps(_plain(tables, "", argument))
     except RecursionError:
-        raise InvalidInput("tables: are nested too deeply, or contain themselves") from None
+        raise InvalidInput(f"{argument}: is nested too deeply, or contains itself") from None
 
 
-def _plain(value: Any, key: str) -> Any:
+def _plain(value: Any, key: str, argument: str) -> Any:
     """The value as TOML knows it."""
     if isinstance(value, Mapping):
         for name in value:
             if not isinstance(name, str):
-                raise InvalidInput(f"{key or 'scenario'}: the key {name!r} is not allowed: must be a string")
-        return {name: _plain(item, f"{key}.{name}" if key else name) for name, item in value.items()}
+                raise InvalidInput(f"{key or argument}: the key {name!r} is not allowed: must be a string")
+            _arguments.text(key or argument, name)
+        return {name: _plain(item, f"{key}.{name}" if key else name, argument) for name, item in value.items()}
     if isinstance(value, (np.ndarray, np.generic)):
-        return _plain(value.tolist(), key)
+        return _plain(value.tolist(), key, argument)
     if isinstance(value, (list, tuple)):
-        return [_plain(item, f"{key}[{i}]") for i, item in enumerate(value)]
+        return [_plain(item, f"{key}[{i}]", argument) for i, item in enumerate(value)]
     if isinstance(value, str):
-        return _arguments.text(key, value)
+        return _arguments.text(key, value, null=True)
     if isinstance(value, (bool, int, float)):
         return value
+    said = _arguments.described(value)
     raise InvalidInput(
-        f"{key}: {value!r} is not allowed: must be a number, a string, true or false, a list or a dict"
+        f"{key}: {said} is not allowed: must be a number, a string, true or false, a list or a dict"
     )
 
 
@@ -158,9 +169,9 @@ def as_scenario(scenario: str | os.PathLike[str] | Mapping[str, Any] | Scenario)
     if isinstance(scenario, Scenario):
         return scenario
     if isinstance(scenario, Mapping):
-        return Scenario.from_dict(scenario)
+        return Scenario.parse(document("scenario", scenario))
     if isinstance(scenario, (str, os.PathLike)):
-        return Scenario.load(scenario)
+        return Scenario(_load("scenario", scenario))
     raise TypeError(f"scenario: a path, a dict or a Scenario is wanted, not {type(scenario).__name__}")
 
 

@@ -23,7 +23,7 @@ import xarray as xr
 from footfall import _arguments, _core, laws
 from footfall._values import Compared
 from footfall.errors import InvalidInput
-from footfall.scenario import to_toml
+from footfall.scenario import document
 
 _studies = _core.studies
 
@@ -120,7 +120,7 @@ def restitution(
     radius = _arguments.number("radius", radius, "m", above=0, infinite=True)
     gravity = _arguments.number("gravity", gravity, "m/s^2", at_least=0)
     tolerance = _tolerance(tolerance)
-    along = _arguments.column("speeds", np.geomspace(0.01, 10, 50) if speeds is None else speeds)
+    along = _arguments.column("speeds", np.geomspace(0.01, 10, 50) if speeds is None else speeds, "m/s", above=0)
     title = f"Restitution of a sphere of {mass:g} kg" + (f", gravity {gravity:g} m/s^2" if gravity else "")
     table, slowest = _studies.restitution(
         title, list(named.items()), mass, radius, along, gravity, tolerance
@@ -209,7 +209,8 @@ def oblique(
     tolerance = _tolerance(tolerance)
     name, given = ("normal_speed", normal_speed) if speed is None else ("speed", speed)
     approach = _arguments.number(name, given, "m/s", above=0)
-    angle, turning = _arguments.column("angles", angles), _arguments.column("spin", spin)
+    angle = _arguments.column("angles", angles, "rad", at_least=0, below=math.pi / 2)
+    turning = _arguments.column("spin", spin, "rad/s")
     try:
         angle, turning = (array.tolist() for array in np.broadcast_arrays(angle, turning))
     except ValueError:
@@ -262,7 +263,7 @@ def drive(
     if tolerance is not None:
         tolerance = _tolerance(tolerance)
     if isinstance(rig, Mapping):
-        name, file = "rig", _studies.RigFile.parse(to_toml(rig), "rig")
+        name, file = "rig", _studies.RigFile.parse(document("rig", rig), "rig")
     elif isinstance(rig, (str, os.PathLike)):
         name, file = str(rig), _studies.RigFile.load(_arguments.path("rig", rig))
     else:
@@ -421,7 +422,7 @@ def material(
         if mass is None:
             if ball.density is None:
                 raise InvalidInput("mass is missing: the sphere's material has no density to compute it from")
-            mass = 4 / 3 * math.pi * radius**3 * ball.density
+            mass = 4 / 3 * math.pi * radius * radius * radius * ball.density
         stiffness = _studies.normal_stiffness(modulus, radius)
         law = with_restitution(
             laws.AzadFeatherstoneNormal(stiffness=stiffness, damping=0.0), mass, speed, restitution

@@ -86,12 +86,15 @@ std::string representation(const Law& law, const std::string& name) {
 }
 
 std::string kind_of(const nb::handle& given) {
+    if (given.is_none()) return "None";
     return nb::cast<std::string>(nb::handle(given.type().attr("__name__")));
 }
 
-/// The text of a Python string, as UTF-8; what has none (a lone surrogate) is shown as its escape.
+/// The text of a Python string, as UTF-8. A lone surrogate, which has none, and a null, which would end a message, are
+/// shown as their escapes; neither is in a number or a unit.
 std::string text_of(const nb::handle& given) {
-    return nb::cast<std::string>(given.attr("encode")("utf-8", "backslashreplace").attr("decode")("utf-8"));
+    const nb::object text = given.attr("encode")("utf-8", "backslashreplace").attr("decode")("utf-8");
+    return nb::cast<std::string>(text.attr("replace")(nb::str("\0", 1), "\\0"));
 }
 
 template <class Parameter>
@@ -182,7 +185,7 @@ void bind_law(nb::module_& laws, std::string_view kind) {
             }
             return true;
         },
-        nb::sig("def __eq__(self, other: object, /) -> bool"));
+        nb::arg("other").none(), nb::sig("def __eq__(self, other: object, /) -> bool"));
     type.def("__hash__", [name](const Law& law) {
         std::size_t hash = std::hash<std::string>{}(name);
         // Not the text of the numbers: 0 and -0 are equal and must have the same hash.

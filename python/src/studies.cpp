@@ -236,9 +236,16 @@ void bind_fit(nb::module_& module) {
            const std::string& loss, int starts, double confidence, bool noise_is_known) {
             FitStudy study{.data = file ? load_fit_data(*file) : parse_fit_data(csv)};
             for (const std::string& law : laws) study.laws.push_back(parse_fit_law(law));
-            if (mass) study.mass = parse_fit_value(*mass, "kg");
-            if (speed) study.speed = parse_fit_value(*speed, "m/s");
-            study.touchdown = parse_fit_value(touchdown, "s");
+            const auto value = [](const char* name, const std::string& given, const char* unit) {
+                try {
+                    return parse_fit_value(given, unit);
+                } catch (const InvalidInput& error) {
+                    throw InvalidInput(fmt::format("{}: {}", name, error.what()));
+                }
+            };
+            if (mass) study.mass = value("mass", *mass, "kg");
+            if (speed) study.speed = value("speed", *speed, "m/s");
+            study.touchdown = value("touchdown", touchdown, "s");
             study.quasistatic = quasistatic;
             if (noise_is_known && study.data.sigma.empty()) {
                 throw InvalidInput("sigma_is_true: there is no column sigma");

@@ -1,0 +1,187 @@
+"""Runs in files: named scenarios, what is no run, and many threads at once."""
+
+from __future__ import annotations
+
+import os
+import stat
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import footfall
+from conftest import SCENARIOS, footfall_command
+
+
+@pytest.fixture(scope="module")
+def impact() -> footfall.Run:
+    return footfall.run("single-impact")
+
+
+@pytest.fixture
+def saved(impact: footfall.Run, tmp_path: Path) -> Path:
+    return impact.save(tmp_path / "run.nc")
+
+
+# Scenarios by name --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", sorted(SCENARIOS))
+def test_a_shipped_scenario_is_found_by_its_name(name: str) -> None:
+    assert footfall.Scenario.load(name) == footfall.Scenario.load(SCENARIOS[name])
+
+
+def test_a_run_by_name_is_that_of_the_file(impact: footfall.Run) -> None:
+    assert footfall.run("single-impact") == footfall.run(SCENARIOS["single-impact"]) == impact
+
+
+def test_a_file_comes_before_a_shipped_scenario(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "rolling-sphere").write_text(SCENARIOS["single-impact"].read_text())
+    assert footfall.Scenario.load("rolling-sphere").title == footfall.Scenario.load(SCENARIOS["single-impact"]).title
+    (tmp_path / "slope-stick").mkdir()
+    with pytest.raises(IsADirectoryError, match="slope-stick"):
+        footfall.run("slope-stick")
+    os.symlink("nowhere", tmp_path / "slope-slide")
+    with pytest.raises(FileNotFoundError, match="slope-slide"):
+        footfall.run("slope-slide")
+
+
+def test_a_name_that_is_neither_gets_the_nearest(command: str) -> None:
+    for given in ("roling-sphere", "rolling-sphere.toml", "scenarios/rolling-sphere.toml"):
+        with pytest.raises(FileNotFoundError, match=rf"{given}: No such file.*did you mean .*'rolling-sphere'") as caught:
+            footfall.run(given)
+        assert caught.value.errno == 2
+    with pytest.raises(FileNotFoundError) as caught:
+        footfall.run("something-else-altogether")
+    assert "did you mean" not in str(caught.value)
+
+
+# Files that are no run ----------------------------------------------------------------------------------------------
+
+
+def test_save_writes_what_the_command_writes(command: str, saved: Path, impact: footfall.Run, tmp_path: Path) -> None:
+    by_command = tmp_path / "command.nc"
+    assert footfall_command(command, "run", SCENARIOS["single-impact"], "-q", "-o", by_command).returncode == 0
+    assert footfall.open(saved) == footfall.open(by_command) == impact
+    assert footfall_command(command, "run", SCENARIOS["single-impact"], "-q", "-o", by_command).returncode == 0
+    umask = os.umask(0)
+    os.umask(umask)
+    assert stat.S_IMODE(saved.stat().st_mode) == 0o666 & ~umask
+    assert [file.name for file in tmp_path.iterdir() if file.name.endswith(".part")] == []
+
+
+def test_save_replaces_a_file_whole_or_not_at_all(saved: Path, rolling: footfall.Run, tmp_path: Path) -> None:
+    link = tmp_path / "link.nc"
+    link.symlink_to(saved.name)
+    assert rolling.save(str(link)) == link and link.is_symlink()
+    assert footfall.open(saved) == rolling
+    for wrong, kind in ((tmp_path / "no" / "a.nc", FileNotFoundError), (tmp_path, IsADirectoryError)):
+        with pytest.raises(kind, match=f"cannot write {wrong}"):
+            rolling.save(wrong)
+    with pytest.raises(footfall.InvalidInput, match="/dev/null"):
+        rolling.save("/dev/null")
+    before = saved.read_bytes()
+    broken = footfall.Run(rolling.dataset.assign_attrs(wrong={"a": 1}))
+    with pytest.raises(TypeError):
+        broken.save(saved)
+    assert saved.read_bytes() == before and {file.name for file in tmp_path.iterdir()} == {"run.nc", "link.nc"}
+
+
+def test_what_cannot_be_read_says_so(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match=r"cannot read .*missing\.nc: No such file") as caught:
+        footfall.open(tmp_path / "missing.nc")
+    assert caught.value.errno == 2
+    with pytest.raises(IsADirectoryError, match="cannot read .*: Is a directory"):
+        footfall.open(tmp_path)
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(footfall.InvalidInput, match="pipe"):
+        footfall.open(tmp_path / "pipe")
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [(b"", "is empty"), (b"text\n", "is not a NetCDF file"), (bytes(100_000), "is not a NetCDF file"),
+     (b"\x89HDF\r\n\x1a\n", "damaged or only a part"), (b"CDF\x01", "damaged or only a part"),
+     (b"CDF\x05" + bytes(1000), "")],
+    ids=["empty", "text", "zeros", "only a signature", "only a classic signature", "a classic file of zeros"],
+)  # fmt: skip
+def test_what_is_no_netcdf_file_is_refused(tmp_path: Path, content: bytes, said: str) -> None:
+    file = tmp_path / "wrong.nc"
+    file.write_bytes(content)
+    with pytest.raises(footfall.InvalidInput, match=rf"wrong\.nc: .*{said}") as caught:
+        footfall.open(file)
+    assert "HDF" not in str(caught.value) and "Errno" not in str(caught.value)
+
+
+def test_a_part_of_a_run_is_refused(saved: Path, tmp_path: Path) -> None:
+    whole = saved.read_bytes()
+    part = tmp_path / "part.nc"
+    for share in np.linspace(0, 1, 23)[:-1]:
+        part.write_bytes(whole[: int(share * len(whole))])
+        with pytest.raises(footfall.InvalidInput, match=r"part\.nc: "):
+            footfall.open(part)
+
+
+def test_another_netcdf_file_is_no_run(impact: footfall.Run, tmp_path: Path) -> None:
+    file = tmp_path / "other.nc"
+    others = {
+        "the attribute 'footfall_version' is missing": xr.Dataset({"a": 1}),
+        "the attribute 'scenario' is missing": impact.dataset.drop_attrs().assign_attrs(footfall_version="1", title="a"),
+        "the variable 'depth' is missing": impact.dataset.drop_vars("depth"),
+        "the variable 'event_kind' is missing": impact.dataset.drop_vars("event_kind"),
+        "the variable 'depth' is not one over": impact.dataset.assign(depth=("time", impact.dataset["time"].values)),
+        "it has no sample": impact.dataset.isel(time=slice(0)),
+    }
+    for said, dataset in others.items():
+        dataset.to_netcdf(file)
+        with pytest.raises(footfall.InvalidInput, match=f"other.nc: is not a run of footfall: {said}"):
+            footfall.open(file)
+
+
+# Threads ------------------------------------------------------------------------------------------------------------
+
+# In a process of its own: what threads break in the NetCDF library ends the interpreter.
+HAMMER = """
+import sys, time
+from concurrent.futures import ThreadPoolExecutor
+import footfall
+
+folder, seconds = sys.argv[1], float(sys.argv[2])
+run = footfall.run("single-impact")
+run.save(f"{folder}/shared.nc")
+end = time.monotonic() + seconds
+
+def work(worker):
+    rounds = 0
+    while time.monotonic() < end:
+        own = f"{folder}/{worker}.nc"
+        run.save(own)
+        assert footfall.open(own) == run
+        run.save(f"{folder}/shared.nc")
+        assert footfall.open(f"{folder}/shared.nc") == run
+        rounds += 1
+    return rounds
+
+with ThreadPoolExecutor(8) as pool:
+    print(sum(pool.map(work, range(8))))
+"""
+
+
+def test_eight_threads_open_and_save_at_once(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", HAMMER, str(tmp_path), "3"], capture_output=True, text=True, check=False, timeout=120
+    )
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout) >= 8
+
+
+def test_runs_in_many_threads_are_those_of_one(impact: footfall.Run) -> None:
+    with ThreadPoolExecutor(8) as pool:
+        for run in pool.map(lambda _: footfall.run("single-impact"), range(16)):
+            assert run == impact
