@@ -107,7 +107,7 @@ def integer(name: str, value: Any, low: int, high: int | None = None, meaning: s
 def real_array(name: str, value: Any) -> npt.NDArray[Any]:
     """An array of real numbers, of any shape and number type."""
     if isinstance(value, np.ma.MaskedArray):
-        value = value.astype(np.float64).filled(np.nan)  # what is masked is not known
+        value = np.ma.filled(value.astype(np.float64), np.nan)  # what is masked is not known
     try:
         array = np.asarray(value)
     except (TypeError, ValueError):

@@ -180,8 +180,8 @@ def _too_many(shape: tuple[int, ...], numbers: int) -> MemoryError:
     count = math.prod(shape)
     size = 8 * count * numbers / 2**30
     return MemoryError(
-        f"{count:.3g} contacts were asked for, of shape {shape}: {numbers} numbers for each, {size:.3g} GiB, are more "
-        "memory than there is"
+        f"{count:.3g} contacts were asked for, of shape {shape}: at {8 * numbers} bytes for each they need {size:.3g} "
+        "GiB, more memory than there is"
     )
 
 
@@ -397,12 +397,13 @@ class ContactLaw:
         flat = []
         for array, contacts, width in operands:
             # One value for all contacts is not copied: the loop in C++ stands still on it.
-            if math.prod(contacts) != 1 and contacts != shape:
-                try:
-                    array = np.ascontiguousarray(np.broadcast_to(array, shape if width is None else (*shape, width)))
-                except (MemoryError, ValueError):
-                    raise _too_many(shape, width or 1) from None
-            array = np.ascontiguousarray(array)
+            spread = math.prod(contacts) != 1 and contacts != shape
+            try:
+                if spread:
+                    array = np.broadcast_to(array, shape if width is None else (*shape, width))
+                array = np.ascontiguousarray(array)
+            except (MemoryError, ValueError):
+                raise _too_many(shape, width or 1) from None
             flat.append((array if array.flags.aligned else array.copy()).reshape(-1))
         return flat, shape
 

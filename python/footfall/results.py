@@ -371,8 +371,14 @@ def run(
     if tolerance is not None:
         tolerance = _arguments.number("tolerance", tolerance, infinite=True)
     _arguments.function("progress", progress)
-    (attributes, variables), wall_seconds, page = _core.run(as_scenario(scenario)._core, tolerance, progress)
+    watch = progress and (lambda time: not _is_false(progress(time)))
+    (attributes, variables), wall_seconds, page = _core.run(as_scenario(scenario)._core, tolerance, watch)
     return Run(_dataset(attributes, variables), wall_seconds, page)
+
+
+def _is_false(answer: object) -> bool:
+    """Whether it is False, Python's or NumPy's; None and 0 are no answer."""
+    return isinstance(answer, (bool, np.bool_)) and not answer
 
 
 def open(path: str | os.PathLike[str]) -> Run:  # noqa: A001
@@ -403,7 +409,8 @@ def open(path: str | os.PathLike[str]) -> Run:  # noqa: A001
 
 def _dataset(attributes: dict[str, Any], variables: list[tuple[str, list[str], Any, dict[str, Any]]]) -> xr.Dataset:
     """Arrays of C++, labelled. Nothing is copied."""
-    coordinates, data = {}, {}
+    coordinates: dict[str, Any] = {}
+    data: dict[str, Any] = {}
     for name, dimensions, values, attrs in variables:
         if isinstance(values, list):
             values = np.array(values, dtype=object)

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <functional>
-#include <string_view>
 #include <utility>
 
 #include <nanobind/nanobind.h>
@@ -38,14 +37,6 @@ inline std::function<bool()> unless_interrupted() {
     };
 }
 
-/// Whether a caller's function has returned False, Python's or NumPy's; None and 0 are no answer.
-inline bool is_false(const nb::object& answer) {
-    if (answer.is(nb::bool_(false))) return true;
-    const nb::str name = nb::type_name(answer.type());
-    const std::string_view kind(name.c_str());
-    return (kind.ends_with("numpy.bool_") || kind.ends_with("numpy.bool")) && !nb::bool_(answer);
-}
-
 /// A function for RunOptions::progress, to be called without the GIL; `watch` is None or a function of the time [s]
 /// reached whose False ends the run. It throws what Python raises. `watch` must outlive it.
 inline std::function<bool(double)> progress_of(const nb::object& watch) {
@@ -54,7 +45,8 @@ inline std::function<bool(double)> progress_of(const nb::object& watch) {
         const nb::gil_scoped_acquire gil;
         if (PyErr_CheckSignals() != 0) throw nb::python_error();
         if (watch.is_none()) return true;
-        return !is_false(watch(time));
+        const nb::object answer = watch(time);
+        return !answer.is(nb::bool_(false));
     };
 }
 

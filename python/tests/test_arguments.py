@@ -28,7 +28,8 @@ NORMAL = "azad-featherstone:stiffness=8.5e6,damping=3.1e3"
 FRICTION = "azad-featherstone:stiffness=12.75e6,damping=3.1e3,coefficient=0.2"
 
 NOT_ALLOWED_WORDS = re.compile(
-    r"incompatible function arguments|std::|filesystem error|nanobind|_core|ndarray\[|could not convert|substring|"
+    r"incompatible function arguments|std::|filesystem error|nanobind|_core|ndarray\[|could not convert|"
+    r"substring|"
     r"inhomogeneous|setting an array element|unsupported operand|not subscriptable|has no attribute|is not iterable|is not callable|"
     r"ambiguous|must be real number|float\(\) argument|embedded null|NetCDF:|HDF|codec can't|index out of|"
     r"zero-size array|out of bounds|broadcast together|not supported between",
@@ -219,7 +220,9 @@ def test_every_public_function_is_tried() -> None:
 
 
 @pytest.mark.parametrize("function", FUNCTIONS)
-def test_errors_are_in_the_words_of_the_user(function: str, shown: footfall.Run, tmp_path: Path, monkeypatch: Any) -> None:
+def test_errors_are_in_the_words_of_the_user(
+    function: str, shown: footfall.Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     call, right = calls(shown, tmp_path)[function]
     if function != "open":

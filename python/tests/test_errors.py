@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import pickle
 import signal
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -184,3 +186,38 @@ def test_progress_sees_time_go_by_and_its_errors_come_out() -> None:
     with pytest.raises(LookupError, match="enough"):
         footfall.run(long_run(), progress=watch)
     assert seen == sorted(seen) and seen[-1] > 0
+
+
+def test_numpys_false_ends_a_run_and_no_answer_does_not() -> None:
+    with pytest.raises(footfall.Interrupted):
+        footfall.run(long_run(), progress=lambda _: np.False_)
+    answers = iter([None, 0, "", 1, np.True_, True])
+    with pytest.raises(StopIteration):
+        footfall.run(long_run(), progress=lambda _: next(answers))
+
+
+def test_too_much_for_memory_says_how_much_it_was(paper_law: footfall.ContactLaw) -> None:
+    depth, rate = np.broadcast_to(1e-3, (2**20, 1)), np.broadcast_to(0.0, (2**40,))
+    for call in (paper_law.evaluate, lambda *rest: paper_law.step(None, *rest, 1e-3)):
+        with pytest.raises(MemoryError, match=r"1\.15e\+18 contacts were asked for, of shape \(1048576, 10995"):
+            call(depth, rate, [0, 0])
+
+
+MEMORY = """
+import resource, footfall
+tables = footfall.Scenario.load("rolling-sphere").to_dict()
+tables["time"] = {"end": 1.0, "sample": 1e-7}
+footfall._core.run
+import xarray, numpy
+used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used + 2**28, used + 2**28))
+footfall.run(tables)
+"""
+
+
+def test_a_run_too_long_for_memory_says_how_many_samples_it_has() -> None:
+    done = subprocess.run([sys.executable, "-c", MEMORY], capture_output=True, text=True, check=False, timeout=120)
+    last = done.stderr.strip().splitlines()[-1]
+    assert last == (
+        "MemoryError: scenario: the run needs more memory than there is: 1e+07 samples, one every 1e-07 s for 1 s"
+    )

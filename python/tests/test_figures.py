@@ -61,3 +61,25 @@ def test_it_says_what_it_cannot_draw(tmp_path: Path) -> None:
     assert draw(tmp_path / "falling.nc", tmp_path).returncode == 0
     done = draw(tmp_path / "falling.nc", tmp_path, "--impact")
     assert done.returncode == 1 and "run: has no impact to draw" in done.stderr
+
+
+@pytest.mark.parametrize("module", ["figures", "paper"])
+def test_a_folder_that_cannot_be_made_is_named(module: str, tmp_path: Path) -> None:
+    run = footfall.run("single-impact").save(tmp_path / "run.nc")
+    arguments = [str(run)] if module == "figures" else []
+    for out, said in ((run, "is a file, not a folder"), (run / "below", "cannot make the folder")):
+        done = subprocess.run(
+            [sys.executable, "-m", f"footfall.{module}", *arguments, str(out)],
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 1 and done.stderr.startswith("error: ") and done.stderr.count("\n") == 1
+        assert said in done.stderr and str(out) in done.stderr
+
+
+def test_what_is_no_run_is_named(tmp_path: Path) -> None:
+    (tmp_path / "text.nc").write_text("a,b\n")
+    done = draw(tmp_path / "text.nc", tmp_path / "out")
+    assert done.returncode == 1 and "text.nc: is not a NetCDF file" in done.stderr and done.stderr.count("\n") == 1
+    assert not (tmp_path / "out").exists()

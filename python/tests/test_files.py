@@ -54,7 +54,8 @@ def test_a_file_comes_before_a_shipped_scenario(tmp_path: Path, monkeypatch: pyt
 
 def test_a_name_that_is_neither_gets_the_nearest(command: str) -> None:
     for given in ("roling-sphere", "rolling-sphere.toml", "scenarios/rolling-sphere.toml"):
-        with pytest.raises(FileNotFoundError, match=rf"{given}: No such file.*did you mean .*'rolling-sphere'") as caught:
+        said = rf"{given}: No such file.*did you mean .*'rolling-sphere'"
+        with pytest.raises(FileNotFoundError, match=said) as caught:
             footfall.run(given)
         assert caught.value.errno == 2
     with pytest.raises(FileNotFoundError) as caught:
@@ -132,7 +133,9 @@ def test_another_netcdf_file_is_no_run(impact: footfall.Run, tmp_path: Path) -> 
     file = tmp_path / "other.nc"
     others = {
         "the attribute 'footfall_version' is missing": xr.Dataset({"a": 1}),
-        "the attribute 'scenario' is missing": impact.dataset.drop_attrs().assign_attrs(footfall_version="1", title="a"),
+        "the attribute 'scenario' is missing": impact.dataset.drop_attrs().assign_attrs(
+            footfall_version="1", title="a"
+        ),
         "the variable 'depth' is missing": impact.dataset.drop_vars("depth"),
         "the variable 'event_kind' is missing": impact.dataset.drop_vars("event_kind"),
         "the variable 'depth' is not one over": impact.dataset.assign(depth=("time", impact.dataset["time"].values)),

@@ -44,7 +44,7 @@ WRONG: dict[str, tuple[Wrong, str]] = {
 WRONG_FLOATS: dict[str, tuple[Wrong, str]] = {
     "big-endian": (lambda a: a.astype(">f8"), "big-endian"),
     "not aligned": (lambda a: np.frombuffer(bytearray(a.nbytes + 1), np.float64, offset=1).reshape(a.shape), "aligned"),
-    "by columns": (lambda a: np.asfortranarray(np.ones((*a.shape[:1], 2)))[:, : a.ndim], ""),
+    "by columns": (np.asfortranarray, "not contiguous"),
 }
 
 
@@ -92,9 +92,8 @@ def test_an_array_that_cannot_be_written_is_named(paper_law: ContactLaw, name: s
     out = paper_law.evaluate(**arguments())
     before = {other: array.copy() for other, array in vars(out).items()}
     wrong = make(getattr(out, name))
-    if isinstance(wrong, np.ndarray) and (wrong.shape, wrong.dtype) == (getattr(out, name).shape, out.normal_force.dtype):
-        if wrong.flags.carray and type(wrong) is np.ndarray:
-            pytest.skip("is right for this array")
+    if kind == "by columns" and getattr(out, name).ndim == 1:
+        pytest.skip("one axis has no order")
     out = dataclasses.replace(out, **{name: wrong})
     others = {k: -v for k, v in arguments().items()}
     with pytest.raises(footfall.InvalidInput, match=rf"^out\.{name}: ") as caught:

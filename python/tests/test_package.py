@@ -52,6 +52,40 @@ def test_a_simulator_in_numpy_alone_uses_the_law() -> None:
     assert abs(rolled - 5 / 7) < 0.002
 
 
+def python(program: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False, timeout=120
+    )
+
+
+def test_figures_are_there_without_an_import_of_their_own() -> None:
+    done = python("import footfall; print(footfall.plot.height, footfall.figures.make, footfall.paper.make)")
+    assert done.returncode == 0, done.stderr
+    assert {"plot", "figures", "paper", "laws", "studies", "run"} <= set(dir(footfall))
+    with pytest.raises(AttributeError, match="has no attribute 'plots'"):
+        footfall.plots  # noqa: B018
+
+
+def test_importing_the_package_loads_nothing_else() -> None:
+    loaded = "[m for m in sys.modules if m.split('.')[0] in ('numpy', 'xarray', 'pandas', 'matplotlib', 'netCDF4')]"
+    done = python(f"import sys, footfall; dir(footfall); print({loaded})")
+    assert done.stdout.strip() == "[]", done.stderr
+
+
+def test_without_matplotlib_it_says_how_to_install_it() -> None:
+    without = "import sys; sys.modules['matplotlib'] = None; import footfall\n"
+    use = "print('plot' in dir(footfall), footfall.run('single-impact').title)\nfrom footfall import *"
+    done = python(without + use)
+    assert done.returncode == 0 and done.stdout.startswith("False Azad"), done.stderr
+    done = python(without + "footfall.plot")
+    assert done.stderr.strip().endswith("ImportError: footfall.plot needs Matplotlib: pip install 'footfall[plot]'")
+    for module in ("figures", "paper"):
+        program = without + f"import runpy; runpy.run_module('footfall.{module}', run_name='__main__')"
+        done = python(program, "a", "b")
+        assert done.returncode == 1
+        assert done.stderr == "error: footfall.plot needs Matplotlib: pip install 'footfall[plot]'\n"
+
+
 def test_everything_public_is_documented() -> None:
     for name in footfall.__all__:
         thing = getattr(footfall, name)

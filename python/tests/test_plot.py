@@ -201,3 +201,30 @@ def test_what_cannot_be_drawn_is_said(axes: Axes, impact: footfall.Run, tmp_path
         plot.filmstrip(axes, impact, times=[1.0])
     with pytest.raises(footfall.InvalidInput, match="studies.drive"):
         plot.presliding_loop(axes, impact.dataset)
+
+
+def test_arguments_in_the_wrong_order_are_named(axes: Axes, impact: footfall.Run) -> None:
+    with pytest.raises(TypeError, match=r"axes: Axes of Matplotlib are wanted, .* not Run"):
+        plot.height(impact, axes)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="run: a run is wanted, .* not the text 'run.nc'"):
+        plot.height(axes, "run.nc")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="axes: .* not a list of 2"):
+        plot.height([axes, axes], impact)  # type: ignore[arg-type]
+
+
+def test_a_window_that_holds_nothing_is_named(axes: Axes, impact: footfall.Run) -> None:
+    for window, said in (
+        ((1.0, 2.0), "the run is from 0 s to 0.005 s"),
+        ((0.002, 0.001), "start < end"),
+        ((0.0010001, 0.0010002), "must hold two samples of the run, which has one every 5e-06 s"),
+        ((0.001, np.nan), "start < end"),
+    ):
+        with pytest.raises(footfall.InvalidInput, match=f"window: .* {said}"):
+            plot.energy(axes, impact, window=window)
+
+
+def test_words_that_are_none_are_answered_with_those_that_are(axes: Axes, impact: footfall.Run) -> None:
+    with pytest.raises(footfall.InvalidInput, match="component: 'w' is not allowed: must be 'normal', 'x', 'y', 'z'"):
+        plot.contact_force(axes, impact, component="w")  # type: ignore[arg-type]
+    with pytest.raises(footfall.InvalidInput, match="horizontal: 'z' is not allowed: must be 'x' or 'y'"):
+        plot.trajectory(axes, impact, horizontal="z")  # type: ignore[arg-type]

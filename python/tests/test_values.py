@@ -32,7 +32,8 @@ def fit() -> studies.Fit:
     speeds = np.geomspace(0.05, 5, 12)
     noise = 1e-3 * np.random.default_rng(2010).standard_normal(speeds.size)
     data = pd.DataFrame({"speed": speeds, "restitution": 0.9 - 0.05 * speeds**0.2 + noise})
-    return studies.fit(data, ["azad-featherstone:stiffness=8.5e6,damping=?", "linear:stiffness=1e4,damping=?"], mass=0.1)
+    wanted = ["azad-featherstone:stiffness=8.5e6,damping=?", "linear:stiffness=1e4,damping=?"]
+    return studies.fit(data, wanted, mass=0.1)
 
 
 @pytest.fixture(scope="module")
