@@ -187,6 +187,11 @@ def path(name: str, value: Any) -> Path:
     return result
 
 
+def shown(file: Path) -> str:
+    """A path for a message: bytes of a name that are no UTF-8 as escapes."""
+    return os.fsencode(file).decode(errors="backslashreplace")
+
+
 def folder(name: str, value: Any) -> Path:
     """A folder to write into, made where it is missing. OSError where it cannot be made."""
     result = path(name, value)

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from footfall._arguments import os_error
+from footfall._arguments import os_error, shown
 from footfall.errors import InvalidInput
 
 _one_at_a_time = threading.Lock()
@@ -25,9 +25,17 @@ _one_at_a_time = threading.Lock()
 _SIGNATURES = (b"\x89HDF\r\n\x1a\n", b"CDF\x01", b"CDF\x02", b"CDF\x05")
 
 
+def _check_name(file: Path) -> None:
+    try:
+        str(file).encode()
+    except UnicodeEncodeError:
+        raise InvalidInput(f"path: {shown(file)} is not allowed: NetCDF files have names in UTF-8") from None
+
+
 def read_netcdf(file: Path) -> xr.Dataset:
     """The whole dataset. OSError where the file cannot be read; InvalidInput where it is no NetCDF file, or a part of
     one."""
+    _check_name(file)
     if file.is_fifo():
         raise InvalidInput(f"{file}: is not a file of a run, but a pipe")
     try:
@@ -54,6 +62,7 @@ def read_netcdf(file: Path) -> xr.Dataset:
 def written_whole(file: Path, dataset: xr.Dataset) -> Path:
     """Writes a NetCDF-4 file, which appears whole or not at all, and gives its path. OSError where that fails."""
     target = Path(os.path.realpath(file))  # what a link points to is replaced, not the link
+    _check_name(target)
     if target.is_dir():
         raise os_error(21, f"cannot write {file}: it is a folder")
     if target.exists() and not target.is_file():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import os
 import sys
 from collections.abc import Mapping
@@ -112,11 +111,11 @@ def _load(argument: str, path: str | os.PathLike[str]) -> _core.Scenario:
     try:
         return _core.Scenario.load(file)
     except FileNotFoundError as error:
-        meant = [file.stem] if file.stem in shipped else difflib.get_close_matches(file.stem, shipped, n=3)
-        if not meant:
-            raise
-        names = " or ".join(f"'{name}'" for name in meant)
-        message = f"{error}; did you mean the shipped scenario {names}?"
+        said = _arguments.shown(file)
+        message = (
+            f"cannot read {said}: there is no such file, and no scenario of this name comes with footfall"
+            f"{_core.did_you_mean(Path(said).stem, list(shipped))} (footfall.shipped_scenarios() has their names)"
+        )
         raise _arguments.os_error(error.errno or 0, message) from None
 
 

@@ -2,12 +2,19 @@
 #pragma once
 
 #include <stdexcept>
+#include <string_view>
 
 #include <nanobind/nanobind.h>
 
 namespace footfall::python {
 
 namespace nb = nanobind;
+
+/// Text for a person. Names of files may be no UTF-8; their other bytes are shown as escapes.
+inline nb::str printable(std::string_view text) {
+    return nb::steal<nb::str>(
+        PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "backslashreplace"));
+}
 
 /// Becomes Python's MemoryError; the message says what was asked for.
 class OutOfMemory : public std::runtime_error {

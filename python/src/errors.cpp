@@ -17,17 +17,17 @@ constexpr const char* no_memory = "what was asked for needs more memory than the
 
 void raise(const char* type, const char* message) {
     const nb::object exception = nb::module_::import_("footfall.errors").attr(type);
-    PyErr_SetString(exception.ptr(), message);
+    PyErr_SetObject(exception.ptr(), printable(message).ptr());
 }
 
 /// (line, column, message) of each problem goes with the exception.
 void raise(const ScenarioError& error) {
     nb::list problems;
     for (const ScenarioProblem& problem : error.problems()) {
-        problems.append(nb::make_tuple(problem.line, problem.column, nb::str(problem.message.c_str())));
+        problems.append(nb::make_tuple(problem.line, problem.column, printable(problem.message)));
     }
     const nb::object type = nb::module_::import_("footfall.errors").attr("ScenarioError");
-    const nb::object exception = type(nb::str(error.what()), problems);
+    const nb::object exception = type(printable(error.what()), problems);
     PyErr_SetObject(type.ptr(), exception.ptr());
 }
 
@@ -36,7 +36,7 @@ void raise(const std::system_error& error, const std::string& message) {
     const int number = error.code().value();
     const nb::object os_error = nb::module_::import_("builtins").attr("OSError");
     const nb::object type = nb::borrow(os_error(number, "").type());
-    const nb::object exception = type(nb::str(message.c_str()));
+    const nb::object exception = type(printable(message));
     exception.attr("errno") = number;
     PyErr_SetObject(type.ptr(), exception.ptr());
 }
@@ -61,7 +61,7 @@ void bind_errors(nb::module_& /*module*/) {
         } catch (const std::system_error& error) {
             raise(error, error.what());
         } catch (const OutOfMemory& error) {
-            PyErr_SetString(PyExc_MemoryError, error.what());
+            PyErr_SetObject(PyExc_MemoryError, printable(error.what()).ptr());
         } catch (const std::bad_alloc&) {
             PyErr_SetString(PyExc_MemoryError, no_memory);
         } catch (const std::length_error&) {

@@ -12,11 +12,17 @@
 
 #include "bind.hpp"
 #include "footfall/io/output.hpp"
+#include "io/nearest.hpp"
 #include "named_scenario.hpp"
 
 namespace footfall::python {
 
 void bind_scenario(nb::module_& module) {
+    module.def(
+        "did_you_mean",
+        [](const std::string& word, const std::vector<std::string>& words) { return io::did_you_mean(word, words); },
+        nb::arg("word"), nb::arg("words"),
+        "\": did you mean 'WORD'?\" with the nearest of the words, or nothing where none is near.");
     nb::class_<Sphere>(module, "Sphere", "One sphere of a body.")
         .def_ro("center", &Sphere::center, "From the centre of mass, in the body's frame [m], shape (3,).")
         .def_ro("radius", &Sphere::radius, "r [m], > 0.");
@@ -68,7 +74,7 @@ void bind_scenario(nb::module_& module) {
                 return NamedScenario{parse_scenario(text, name), name};
             },
             nb::arg("text"), nb::arg("name"))
-        .def_ro("name", &NamedScenario::name)
+        .def_prop_ro("name", [](const NamedScenario& s) { return printable(s.name); })
         .def_prop_ro("title", [](const NamedScenario& s) { return s.scenario.title; })
         .def_prop_ro("text", [](const NamedScenario& s) { return s.scenario.text; })
         .def(

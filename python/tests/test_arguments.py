@@ -28,9 +28,9 @@ NORMAL = "azad-featherstone:stiffness=8.5e6,damping=3.1e3"
 FRICTION = "azad-featherstone:stiffness=12.75e6,damping=3.1e3,coefficient=0.2"
 
 NOT_ALLOWED_WORDS = re.compile(
-    r"incompatible function arguments|std::|filesystem error|nanobind|_core|ndarray\[|could not convert|"
-    r"substring|"
-    r"inhomogeneous|setting an array element|unsupported operand|not subscriptable|has no attribute|is not iterable|is not callable|"
+    r"incompatible function arguments|std::|filesystem error|nanobind|_core|ndarray\[|could not convert|substring|"
+    r"inhomogeneous|setting an array element|unsupported operand|not subscriptable|has no attribute|"
+    r"is not iterable|is not callable|"
     r"ambiguous|must be real number|float\(\) argument|embedded null|NetCDF:|HDF|codec can't|index out of|"
     r"zero-size array|out of bounds|broadcast together|not supported between",
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import pickle
 import stat
 import subprocess
 import sys
@@ -16,6 +17,7 @@ import xarray as xr
 
 import footfall
 from conftest import SCENARIOS, footfall_command
+from footfall import studies
 
 
 @pytest.fixture(scope="module")
@@ -54,13 +56,32 @@ def test_a_file_comes_before_a_shipped_scenario(tmp_path: Path, monkeypatch: pyt
 
 def test_a_name_that_is_neither_gets_the_nearest(command: str) -> None:
     for given in ("roling-sphere", "rolling-sphere.toml", "scenarios/rolling-sphere.toml"):
-        said = rf"{given}: No such file.*did you mean .*'rolling-sphere'"
+        said = rf"cannot read {given}: there is no such file, .*: did you mean 'rolling-sphere'\?"
         with pytest.raises(FileNotFoundError, match=said) as caught:
             footfall.run(given)
         assert caught.value.errno == 2
     with pytest.raises(FileNotFoundError) as caught:
         footfall.run("something-else-altogether")
     assert "did you mean" not in str(caught.value)
+
+
+def test_a_file_whose_name_is_no_utf_8_is_read_and_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    name, missing, wrong = (os.fsdecode(bytes([byte]) + b".toml") for byte in (0xFF, 0xFE, 0xFD))
+    Path(name).write_bytes(SCENARIOS["single-impact"].read_bytes())
+    Path(wrong).write_text("a = 1\n")
+    scenario = footfall.Scenario.load(name)
+    assert scenario.name == "\\xff.toml" and pickle.loads(pickle.dumps(scenario)) == scenario
+    with pytest.raises(footfall.InvalidInput, match=r"^\\xff\.toml: .*tolerance"):
+        footfall.run(name, tolerance=1)
+    with pytest.raises(FileNotFoundError, match=r"cannot read \\xfe\.toml: there is no such file"):
+        footfall.run(missing)
+    for call in (footfall.run, studies.drive, lambda file: studies.fit(file, "hertz:stiffness=?")):
+        with pytest.raises(footfall.ScenarioError, match=r"^\\xfd\.toml:"):
+            call(wrong)
+    for call in (footfall.run(scenario).save, footfall.open):
+        with pytest.raises(footfall.InvalidInput, match=r"path: .*fc\.nc is not allowed: .* UTF-8"):
+            call(os.fsdecode(b"\xfc.nc"))
 
 
 # Files that are no run ----------------------------------------------------------------------------------------------
