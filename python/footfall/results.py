@@ -185,8 +185,8 @@ class Run:
         """Writes the dataset as a NetCDF-4 file, as ``footfall run -o`` does, and gives its path.
 
         The file appears whole or not at all, in place of one that was there. Any number of threads may save and
-        :func:`open` at once; ``dataset.to_netcdf`` writes the same file, but the NetCDF library below it is not made
-        for threads.
+        :func:`footfall.open` at once. ``dataset.to_netcdf`` writes the same file, but only one thread at a time may
+        call it: the NetCDF library below it is not made for threads.
 
         Raises
         ------
@@ -382,7 +382,7 @@ def _is_false(answer: object) -> bool:
 
 
 def open(path: str | os.PathLike[str]) -> Run:  # noqa: A001
-    """Reads a run from a NetCDF file that ``footfall run -o`` or :meth:`Run.save` has written.
+    """Reads a run from a NetCDF file that ``footfall run -o`` or :meth:`footfall.Run.save` has written.
 
     Any number of threads may do so at once.
 

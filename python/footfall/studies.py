@@ -417,7 +417,7 @@ def material(
     elif restitution is not None:
         if speed is None:
             raise InvalidInput("speed is missing: the restitution was measured at one")
-        restitution = _arguments.number("restitution", restitution, above=0, at_most=1)
+        restitution = _arguments.number("restitution", restitution)
         speed = _arguments.number("speed", speed, "m/s", above=0)
         if mass is None:
             if ball.density is None:
@@ -441,7 +441,7 @@ def with_restitution(normal: Any, mass: float, speed: float, restitution: float)
         laws._law("normal", normal, "Normal"),
         _arguments.number("mass", mass, "kg", above=0),
         _arguments.number("speed", speed, "m/s", above=0),
-        _arguments.number("restitution", restitution, above=0, at_most=1),
+        _arguments.number("restitution", restitution),
     )
 
 

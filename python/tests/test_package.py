@@ -100,8 +100,12 @@ def test_the_types_are_those_of_use(tmp_path: Path) -> None:
     program = tmp_path / "typed.py"
     program.write_text(
         """
+from pathlib import Path
+
 import footfall
+import matplotlib.pyplot as plt
 import xarray as xr
+from matplotlib.axes import Axes
 
 run: footfall.Run = footfall.run("a.toml", tolerance=1e-10, progress=lambda t: t < 1)
 data: xr.Dataset = run.dataset
@@ -109,6 +113,10 @@ kind: str = run.events[0].kind
 speed: float | None = run.impacts[0].speed_out
 law = footfall.ContactLaw(footfall.laws.AzadFeatherstoneNormal(stiffness=1.0, damping="1 N s/m^1.5"))
 force: float = float(law.evaluate(0.0, 0.0, [0, 0], [0, 0]).normal_force)
+saved: Path = run.save("a.nc")
+again: float | None = footfall.ContactLaw("hertz:stiffness=1").impact_speed
+drawn: Axes = footfall.plot.height(plt.subplots()[1], run)
+made: list[tuple[Path, str]] = footfall.figures.make(run, Path("figures"))
 mass: float = footfall.Scenario.load("a.toml").simulation.body.mass
 footfall.run(3)  # type: ignore[arg-type]
 footfall.laws.AzadFeatherstoneNormal(stifness=1)  # type: ignore[call-arg]

@@ -152,5 +152,12 @@ TEST(OutputSummary, SaysSoWhereNothingHasHappened) {
     EXPECT_TRUE(contains(page, "no sphere touched the ground"));
 }
 
+TEST(OutputSummary, APageOfAScenarioIsTheHeadOfItsRuns) {
+    const std::string head = summary(two_sphere_scenario());
+    EXPECT_TRUE(summary(two_sphere_scenario(), two_sphere_run()).starts_with(head));
+    EXPECT_TRUE(contains(head, "K_t = 1.275e7"));
+    EXPECT_FALSE(contains(head, "touchdown"));
+}
+
 }  // namespace
 }  // namespace footfall::test
