@@ -152,7 +152,8 @@ def test_a_part_of_a_run_is_refused(saved: Path, tmp_path: Path) -> None:
 
 def test_another_netcdf_file_is_no_run(impact: footfall.Run, tmp_path: Path) -> None:
     file = tmp_path / "other.nc"
-    bare = xr.Dataset(impact.dataset, attrs={"footfall_version": "1", "title": "a"})
+    bare = impact.dataset.copy()
+    bare.attrs = {"footfall_version": "1", "title": "a"}
     others = {
         "the attribute 'footfall_version' is missing": xr.Dataset({"a": 1}),
         "the attribute 'scenario' is missing": bare,
