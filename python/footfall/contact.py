@@ -354,6 +354,9 @@ class ContactLaw:
         ------
         InvalidInput
             Where the shapes do not fit together, a phase is none, or ``dt`` or ``tolerance`` is out of range.
+        TooExpensive
+            Where a contact slides so far over ``dt`` that it needs more sub-steps than are taken, a million under laws
+            with internal states; the message has its index, counted over the flattened contacts.
         TypeError
             Where something else than real numbers is given.
         """

@@ -27,6 +27,7 @@
 #include "footfall/law/friction_state_step.hpp"
 #include "footfall/law/registry.hpp"
 #include "footfall/math/error.hpp"
+#include "footfall/simulate/run.hpp"
 
 namespace footfall::python {
 namespace {
@@ -173,6 +174,15 @@ inline void check_signals(std::size_t i) {
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
 }
 
+/// A step that could not be followed to its end must not pass for one that was.
+inline void check_whole(double left, double dt, std::size_t i) {
+    if (!(left > 0)) return;
+    throw TooExpensive(fmt::format(
+        "step: contact {} needs too many sub-steps: after the most that are taken, {} s of dt = {} s are left; "
+        "take shorter steps or a larger tolerance",
+        i, left, dt));
+}
+
 // Friction laws with a bristle, or with nothing
 // ------------------------------------------------------------------------
 
@@ -205,6 +215,7 @@ void step(const Law& law, const Contacts& in, double dt, double tolerance, const
             continue;
         }
         const BristleStep r = stepper(bounded(depth), rate, V, u, dt);
+        check_whole(r.left, dt, i);
         out.phase[i] = static_cast<std::int8_t>(r.phase);
         out.normal_force[i] = r.normal_force;
         put(r.mean_friction_force, out.friction_force + 2 * i);
@@ -267,6 +278,7 @@ void step(const StatesLaw& law, const Contacts& in, double dt, double tolerance,
         const std::span<double> x(out.bristle + states * i, states);
         std::copy_n(in.bristle.at(i), states, x.begin());
         const FrictionStateStep r = stepper(at.phase, F_n, V, x, dt);
+        check_whole(r.left, dt, i);
         out.phase[i] = static_cast<std::int8_t>(loaded ? r.phase : at.phase);
         out.normal_force[i] = F_n;
         put(r.mean_friction_force, out.friction_force + 2 * i);

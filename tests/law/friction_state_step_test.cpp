@@ -82,5 +82,18 @@ TEST(FrictionStateStep, WithoutALoadTheContactIsNewAgain) {
     EXPECT_EQ(step.mean_friction_force.norm(), 0);
 }
 
+TEST(FrictionStateStep, SaysWhatIsLeftWhereItTakesTooManySubSteps) {
+    const AnyRateFriction<> law(DahlFriction<>{.stiffness = 1e4, .coefficient = 0.4});
+    const FrictionStateStepper stepper(law);
+    const auto left_at = [&](double speed) {
+        std::array<double, 2> x{};
+        return stepper(Phase::flight, load, {speed, 0}, x, dt).left;
+    };
+    EXPECT_EQ(left_at(1), 0);
+    // The sub-steps are bounded by 2.5 mu / (sigma V) or so, where they are stable.
+    EXPECT_GT(left_at(1e9), 0.5 * dt);
+    EXPECT_LT(left_at(1e9), dt);
+}
+
 }  // namespace
 }  // namespace footfall::test

@@ -35,6 +35,7 @@ struct BristleStep {
     Vector2<double> mean_friction_force = Vector2<double>::Zero();  ///< F_f, its mean over the step [N]
     double tangential_damper = 0;                                   ///< taken by the damper over the step [J]
     double clutch = 0;                                              ///< taken by the clutch over the step [J]
+    double left = 0;  ///< time that the step has not covered [s]: > 0 where it took too many sub-steps
 
     /// What follows from something that is not a number.
     [[nodiscard]] static BristleStep nothing() noexcept {
@@ -122,6 +123,7 @@ private:
             if (holds) step.phase = Phase::stick;
         }
         step.mean_friction_force = impulse / dt;
+        step.left = left;
     }
 
     /// When a bristle that sticks reaches the cone, |K_t u + D_t V + K_t V t| = mu phi_n [s].

@@ -23,19 +23,23 @@ struct FrictionStateStep {
     Vector2<double> mean_friction_force = Vector2<double>::Zero();  ///< F_f, its mean over the step [N]
     double tangential_damper = 0;                                   ///< taken by the damper over the step [J]
     double clutch = 0;                                              ///< taken by the clutch over the step [J]
+    double left = 0;  ///< time that the step has not covered [s]: > 0 where it took `most_sub_steps`
 };
 
 /// Advances the states of contacts under one friction law, of double, or AnyRateFriction.
 template <class Friction>
 class FrictionStateStepper {
 public:
+    /// Sub-steps of one step: about a second of work for each contact. More are not taken.
+    static constexpr int most_sub_steps = 1'000'000;
+
     /// `tolerance`, of each sub-step, is relative to the law's own sizes of its states: from 1e-12 to 1e-2.
     explicit FrictionStateStepper(const Friction& friction, double tolerance = 1e-4)
         : friction_(friction), tolerance_(tolerance) {}
 
     /// Advances the states `x` of a contact over `dt` [s], > 0, under the load F_n [N] and the slip velocity V [m/s].
     /// `phase` is stick or slip where the contact was loaded before, else flight. Without a load the states become
-    /// those of a new contact.
+    /// those of a new contact. A step of which something is `left` has no meaning: take shorter ones.
     [[nodiscard]] FrictionStateStep operator()(Phase phase, double F_n, const Vector2<double>& V, std::span<double> x,
                                                double dt) const noexcept {
         FrictionStateStep step;
@@ -60,6 +64,7 @@ public:
         step.mean_friction_force = F_n / dt * Vector2<double>(total[0], total[1]);
         step.tangential_damper = F_n * total[2];
         step.clutch = F_n * total[3];
+        step.left = left;
         return step;
     }
 
@@ -123,8 +128,6 @@ private:
             return h;
         }
     }
-
-    static constexpr int most_sub_steps = 1'000'000;
 
     Friction friction_;
     double tolerance_;
