@@ -178,7 +178,7 @@ inline void check_signals(std::size_t i) {
 inline void check_whole(double left, double dt, std::size_t i) {
     if (!(left > 0)) return;
     throw TooExpensive(fmt::format(
-        "step: contact {} needs too many sub-steps: after the most that are taken, {} s of dt = {} s are left; "
+        "step: contact {} needs too many sub-steps: after the most that are taken, {:.3g} s of dt = {:.3g} s are left; "
         "take shorter steps or a larger tolerance",
         i, left, dt));
 }
