@@ -15,6 +15,7 @@
 #include "footfall/io/rig.hpp"
 #include "footfall/io/table_output.hpp"
 #include "footfall/study/drive.hpp"
+#include "places.hpp"
 #include "settings.hpp"
 #include "shipped.hpp"
 #include "terminal.hpp"
@@ -64,10 +65,17 @@ std::vector<RigRun> laws_to_drive(const DriveArguments& arguments, const Contact
 }
 
 int drive_rig(const DriveArguments& arguments) {
+    work_on(arguments.rig);
     const RigFile file = load(arguments);
     if (arguments.print) {
         print(file.text);
         return ExitCode::success;
+    }
+    if (arguments.csv) {
+        std::vector<Place> inputs{{"RIG", arguments.rig}};
+        for (const std::filesystem::path& table : file.tables) inputs.push_back({"a table of the rig", table});
+        keep_apart(inputs, {{"--csv", *arguments.csv}});
+        check_csv_file(*arguments.csv);
     }
     std::vector<RigRun> runs = laws_to_drive(arguments, file.laws);
     for (RigRun& run : runs) {

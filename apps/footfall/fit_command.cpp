@@ -16,6 +16,7 @@
 #include "footfall/io/fit_report.hpp"
 #include "footfall/io/table_output.hpp"
 #include "footfall/study/fit.hpp"
+#include "places.hpp"
 #include "quantity.hpp"
 #include "table_options.hpp"
 #include "terminal.hpp"
@@ -81,6 +82,11 @@ FitStudy study_of(const FitArguments& arguments) {
 }
 
 int run_fit(const FitArguments& arguments) {
+    work_on(arguments.data);
+    if (arguments.csv) {
+        keep_apart({{"DATA", arguments.data}}, {{"--csv", *arguments.csv}});
+        check_csv_file(*arguments.csv);
+    }
     const FitStudyResult result = fit(study_of(arguments));
     std::vector<std::filesystem::path> written;
     if (arguments.csv) {

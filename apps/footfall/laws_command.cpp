@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.hpp"
+#include "footfall/io/printable.hpp"
 #include "footfall/law/registry.hpp"
 #include "footfall/math/error.hpp"
 #include "io/nearest.hpp"
@@ -94,7 +95,7 @@ int list_laws(const Names& names, bool json) {
             fmt::format("unknown law '{}'{} (laws: {})", name, io::did_you_mean(name, all), io::listed(all)));
     }
     if (json) {
-        print(Json{{"normal", as_json<NormalLaw>(names)}, {"friction", as_json<FrictionLaw>(names)}}.dump(2) + "\n");
+        print(json_text(Json{{"normal", as_json<NormalLaw>(names)}, {"friction", as_json<FrictionLaw>(names)}}) + "\n");
         return ExitCode::success;
     }
     print(as_text<NormalLaw>("Normal laws", "contact.normal", names) +

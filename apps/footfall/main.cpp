@@ -1,5 +1,9 @@
 // The command line: footfall COMMAND ...
 #include <array>
+#include <filesystem>
+#include <new>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -8,8 +12,9 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
-#include "footfall/law/parameter.hpp"
-#include "footfall/simulate/run.hpp"
+#include "footfall/io/printable.hpp"
+#include "footfall/io/scenario.hpp"
+#include "footfall/math/error.hpp"
 #include "terminal.hpp"
 #include "usage.hpp"
 #include "version_line.hpp"
@@ -22,9 +27,15 @@ constexpr const char* exit_codes =
     "  0    success\n"
     "  1    the run failed, or its results could not be written\n"
     "  2    wrong input: the command line, a scenario, a rig or data\n"
-    "  130  interrupted (Ctrl-C); 143 terminated. Nothing is half written.\n";
+    "  130  interrupted (Ctrl-C); 143 terminated, 129 hung up. Nothing is half written.\n";
 
-void say_error(std::string_view message) { fmt::print(stderr, "footfall: {}\n", message); }
+/// One line: what a file's name or an option breaks is written out.
+void say_error(std::string_view message) { say(fmt::format("footfall: {}\n", printable(message))); }
+
+constexpr const char* too_large =
+    "the memory does not suffice for the results; ask for fewer: a larger sample or an earlier end of a run, fewer "
+    "points, "
+    "angles or starts of a study";
 
 // In the order of --help.
 constexpr std::array commands{add_run,      add_restitution, add_oblique, add_drive,
@@ -62,13 +73,15 @@ int parse_and_run(int argc, char** argv) {
         say_error(message);
         std::string asked = "footfall";
         for (const CLI::App* subcommand : line.app.get_subcommands()) asked += " " + subcommand->get_name();
-        fmt::print(stderr, "Try: {} --help\n", asked);
+        say(fmt::format("Try: {} --help\n", asked));
         return ExitCode::wrong_input;
     };
     try {
         line.app.parse(argc, argv);
     } catch (const CLI::Success& asked) {  // --help, --version
-        line.app.exit(asked);
+        std::ostringstream page;
+        line.app.exit(asked, page, page);
+        print(page.str());
         return ExitCode::success;
     } catch (const CLI::ParseError& error) {
         return refuse(usage_error(line.app, error, words));
@@ -83,17 +96,28 @@ int parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace footfall::cli;
+    open_standard_streams();
+    end_on_signals();
     try {
         return parse_and_run(argc, argv);
+    } catch (const footfall::ScenarioError& error) {  // one line for each problem
+        say(fmt::format("footfall: {}\n", error.what()));
+        return ExitCode::wrong_input;
     } catch (const footfall::InvalidInput& error) {
         say_error(error.what());
+        return ExitCode::wrong_input;
+    } catch (const std::filesystem::filesystem_error& error) {
+        say_error(fmt::format("cannot look at {}: {}", error.path1().native(), error.code().message()));
         return ExitCode::wrong_input;
     } catch (const std::system_error& error) {  // the scenario cannot be read
         say_error(error.what());
         return ExitCode::wrong_input;
-    } catch (const footfall::Interrupted& error) {
-        say_error(error.what());
-        return ExitCode::signalled + SignalGuard::received();
+    } catch (const std::bad_alloc&) {
+        say_error(too_large);
+        return ExitCode::failure;
+    } catch (const std::length_error&) {  // more than any memory has
+        say_error(too_large);
+        return ExitCode::failure;
     } catch (const std::exception& error) {
         say_error(error.what());
         return ExitCode::failure;

@@ -13,6 +13,7 @@
 #include "checks.hpp"
 #include "commands.hpp"
 #include "footfall/io/law_text.hpp"
+#include "footfall/io/printable.hpp"
 #include "footfall/material/coefficients.hpp"
 #include "footfall/material/presets.hpp"
 #include "footfall/study/damping.hpp"
@@ -101,7 +102,7 @@ std::string listed(bool json) {
                            {"density", p.density},
                            {"density_source", p.density_source}});
         }
-        return Json{{"materials", all}}.dump(2) + "\n";
+        return json_text(Json{{"materials", all}}) + "\n";
     }
     std::string page = "Materials: Young's modulus, Poisson's ratio, density, and where they come from\n";
     for (const MaterialPreset& p : material_presets()) {
@@ -125,7 +126,7 @@ int from_law(const MaterialArguments& arguments) {
     const double speed = required("--speed", arguments.speed, "m/s", "the restitution was measured at one");
     const NormalLaw law = with_restitution(parse_normal_law(arguments.normal), mass, speed, e);
     if (arguments.json) {
-        print(Json{{"law", law_text(law)}, {"mass", mass}, {"speed", speed}, {"restitution", e}}.dump(2) + "\n");
+        print(json_text(Json{{"law", law_text(law)}, {"mass", mass}, {"speed", speed}, {"restitution", e}}) + "\n");
         return ExitCode::success;
     }
     std::string page = fmt::format("# restitution {} at {} m/s for {} kg\n# {}\n\n[contact.normal]\nlaw = \"{}\"\n", e,
@@ -181,18 +182,17 @@ int from_materials(const MaterialArguments& arguments) {
                         {"poisson_ratio", s.material.poisson_ratio},
                         {"source", s.source}};
         };
-        print(Json{{"sphere", side(sphere)},
-                   {"ground", side(ground)},
-                   {"radius", radius},
-                   {"tangential", arguments.tangential},
-                   {"effective_modulus", c.effective_modulus},
-                   {"effective_shear_modulus", c.effective_shear_modulus},
-                   {"damping_time", c.damping_time},
-                   {"alpha", c.alpha},
-                   {"normal", {{"stiffness", c.normal_stiffness}, {"damping", c.normal_damping}}},
-                   {"friction", {{"stiffness", c.tangential_stiffness}, {"damping", c.tangential_damping}}}}
-                  .dump(2) +
-              "\n");
+        const Json json{{"sphere", side(sphere)},
+                        {"ground", side(ground)},
+                        {"radius", radius},
+                        {"tangential", arguments.tangential},
+                        {"effective_modulus", c.effective_modulus},
+                        {"effective_shear_modulus", c.effective_shear_modulus},
+                        {"damping_time", c.damping_time},
+                        {"alpha", c.alpha},
+                        {"normal", {{"stiffness", c.normal_stiffness}, {"damping", c.normal_damping}}},
+                        {"friction", {{"stiffness", c.tangential_stiffness}, {"damping", c.tangential_damping}}}};
+        print(json_text(json) + "\n");
         return ExitCode::success;
     }
     std::string page = fmt::format("# {} sphere of radius {} m on {}\n", sphere.name, radius, ground.name);

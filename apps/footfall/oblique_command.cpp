@@ -21,11 +21,14 @@
 #include "footfall/body/body.hpp"
 #include "footfall/io/law_text.hpp"
 #include "footfall/io/oblique_data.hpp"
+#include "footfall/io/printable.hpp"
+#include "footfall/io/staged_files.hpp"
 #include "footfall/io/table_output.hpp"
 #include "footfall/io/units.hpp"
 #include "footfall/study/damping.hpp"
 #include "footfall/study/oblique.hpp"
 #include "io/nearest.hpp"
+#include "places.hpp"
 #include "quantity.hpp"
 #include "table_options.hpp"
 #include "terminal.hpp"
@@ -153,7 +156,7 @@ std::string as_json(const ObliqueSphere& sphere, const std::vector<ObliqueImpact
         }
         histories.push_back(std::move(history));
     }
-    return json.dump(2);
+    return json_text(json);
 }
 
 /// What most people come for; everything is in CSV and JSON.
@@ -196,13 +199,26 @@ std::string history_text(const std::vector<ObliqueImpact>& impacts) {
     return page;
 }
 
+/// Before anything runs: no output is an input or another output, and all can be written.
+void check_places(const ObliqueArguments& arguments) {
+    std::vector<Place> inputs, outputs;
+    if (!arguments.data.empty()) inputs.push_back({"--fit", arguments.data});
+    if (arguments.csv) outputs.push_back({"--csv", *arguments.csv});
+    if (arguments.history) outputs.push_back({"--history", *arguments.history});
+    keep_apart(inputs, outputs);
+    for (const Place& output : outputs) check_csv_file(output.path);
+}
+
 int sweep(const ObliqueArguments& arguments) {
+    check_places(arguments);
     const ObliqueSphere sphere = sphere_of(arguments);
     std::vector<ObliqueImpact> impacts;
     for (const Approach& approach : approaches_of(arguments)) impacts.push_back(oblique_impact(sphere, approach));
     const Table table = oblique_table(impacts, friction_coefficient(sphere.contact.friction), arguments.poisson_ratio);
-    if (arguments.csv) write_csv(*arguments.csv, table);
-    if (arguments.history) write_csv(*arguments.history, oblique_history(impacts));
+    StagedFiles files;
+    if (arguments.csv) files.add_csv(*arguments.csv, table);
+    if (arguments.history) files.add_csv(*arguments.history, oblique_history(impacts));
+    files.commit();
     if (arguments.json) {
         print(as_json(sphere, impacts, table) + "\n");
     } else {
@@ -264,19 +280,19 @@ std::string fit_json(const ObliqueFit& fit, const ObliqueData& data) {
                              {"standard_error", e.standard_error ? Json(*e.standard_error) : Json(nullptr)},
                              {"interval", e.interval ? Json{e.interval->low, e.interval->high} : Json(nullptr)}});
     }
-    return Json{{"observable", measured.observable},
-                {"unit", fit.unit},
-                {"estimates", std::move(estimates)},
-                {"correlation", fit.result.correlation},
-                {"rms", fit.result.rms},
-                {"aicc", fit.result.aicc},
-                {"notes", data.remarks.notes},
-                {"warnings", fit.result.warnings},
-                {"normal", law_text(fit.contact.normal)},
-                {"friction", law_text(fit.contact.friction)},
-                {"measured", measured.values},
-                {"model", fit.model}}
-        .dump(2);
+    const Json json{{"observable", measured.observable},
+                    {"unit", fit.unit},
+                    {"estimates", std::move(estimates)},
+                    {"correlation", fit.result.correlation},
+                    {"rms", fit.result.rms},
+                    {"aicc", fit.result.aicc},
+                    {"notes", data.remarks.notes},
+                    {"warnings", fit.result.warnings},
+                    {"normal", law_text(fit.contact.normal)},
+                    {"friction", law_text(fit.contact.friction)},
+                    {"measured", measured.values},
+                    {"model", fit.model}};
+    return json_text(json);
 }
 
 std::string fit_text(const ObliqueFit& fit, const ObliqueData& data) {
@@ -302,6 +318,8 @@ std::string fit_text(const ObliqueFit& fit, const ObliqueData& data) {
 int fit(const ObliqueArguments& arguments) {
     if (arguments.vary.empty())
         throw InvalidInput("--fit needs --vary KEYS, such as friction.coefficient,friction.stiffness");
+    work_on(arguments.data);
+    check_places(arguments);
     const ObliqueSphere sphere = sphere_of(arguments);
     check_vary(arguments.vary, sphere.contact);
     const ObliqueData data = read_data(arguments, sphere);

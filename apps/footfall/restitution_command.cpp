@@ -14,6 +14,7 @@
 #include "checks.hpp"
 #include "commands.hpp"
 #include "footfall/io/law_text.hpp"
+#include "footfall/io/printable.hpp"
 #include "footfall/io/table_output.hpp"
 #include "footfall/study/restitution.hpp"
 #include "quantity.hpp"
@@ -110,7 +111,7 @@ std::string as_json(const RestitutionArguments& arguments, const RestitutionResu
         }
         cases.push_back(std::move(entry));
     }
-    return json.dump(2) + "\n";
+    return json_text(json) + "\n";
 }
 
 std::string as_text(const RestitutionArguments& arguments, const RestitutionResult& result, const Table& rows,
@@ -149,16 +150,18 @@ void warn_of_depth(const RestitutionResult& result) {
         double deepest = 0;
         for (const NormalImpact& impact : result.impacts[i]) deepest = std::max(deepest, impact.peak_indentation);
         if (deepest > small * one.radius) {
-            fmt::print(stderr,
-                       "footfall: warning: {}: the sphere sinks in by {:.2g} of its radius; the laws are for "
-                       "small depths\n",
-                       one.name, deepest / one.radius);
+            say(
+                fmt::format("footfall: warning: {}: the sphere sinks in by {:.2g} of its radius; the laws are for "
+                            "small depths\n",
+                            one.name, deepest / one.radius));
         }
     }
 }
 
 int run_restitution(const RestitutionArguments& arguments) {
-    const RestitutionResult result = restitution(study_of(arguments));
+    const RestitutionStudy study = study_of(arguments);
+    if (arguments.csv) check_csv_file(*arguments.csv);
+    const RestitutionResult result = restitution(study);
     const Straight straight = straight_parts(arguments, result.study);
     const Table rows = table(result);
     warn_of_depth(result);

@@ -13,7 +13,9 @@
 #include "context.hpp"
 #include "footfall/io/output.hpp"
 #include "footfall/io/scenario.hpp"
+#include "footfall/io/staged_files.hpp"
 #include "footfall/simulate/run.hpp"
+#include "places.hpp"
 #include "settings.hpp"
 #include "shipped.hpp"
 #include "terminal.hpp"
@@ -48,41 +50,39 @@ int run_scenario(const RunArguments& arguments) {
         print(scenario.text);
         return ExitCode::success;
     }
+    work_on(arguments.scenario);
+    std::vector<Place> outputs;
+    if (arguments.csv_directory) outputs = table_places("--csv", *arguments.csv_directory);
+    if (arguments.netcdf) outputs.push_back({"--output", *arguments.netcdf});
+    keep_apart({{"SCENARIO", arguments.scenario}}, outputs);
 
     // A place that cannot be written is better known before a long run than after it.
     if (arguments.netcdf) check_netcdf_file(*arguments.netcdf);
     if (arguments.csv_directory) check_csv_directory(*arguments.csv_directory);
 
     RunOptions& options = scenario.simulation.options;
-    const SignalGuard signals;
     ProgressBar bar(options.end_time, !arguments.quiet);
     options.progress = [&bar](double time) {
         bar.update(time);
-        return SignalGuard::received() == 0;
+        return true;
     };
     const std::string name = arguments.scenario.string();
-    const Run result = in_context(name, [&] {
-        try {
-            Run done = run(scenario.simulation);
-            if (SignalGuard::received() != 0) throw Interrupted("after the last step");
-            return done;
-        } catch (const Interrupted&) {
-            throw Interrupted(fmt::format("{}: interrupted; nothing was written", name));
-        }
-    });
+    const Run result = in_context(name, [&] { return run(scenario.simulation); });
     bar.clear();
 
+    StagedFiles files;
     std::vector<std::filesystem::path> written;
     if (arguments.netcdf) {
-        write_netcdf(*arguments.netcdf, scenario, result);
+        files.add_netcdf(*arguments.netcdf, scenario, result);
         written.push_back(*arguments.netcdf);
     }
     if (arguments.csv_directory) {
-        write_csv(*arguments.csv_directory, scenario, result);
+        files.add_csv(*arguments.csv_directory, scenario, result);
         for (const char* table : {"samples.csv", "events.csv", "impacts.csv"}) {
             written.push_back(*arguments.csv_directory / table);
         }
     }
+    files.commit();
     if (arguments.json) {
         print(to_json(scenario, result) + "\n");
     } else if (!arguments.quiet) {

@@ -4,67 +4,140 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
+#include <mutex>
 #include <system_error>
+#include <thread>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
+
+#include "commands.hpp"
+#include "footfall/io/printable.hpp"
+#include "footfall/io/staged_files.hpp"
 
 namespace footfall::cli {
 namespace {
 
-volatile std::sig_atomic_t received_signal = 0;
+using namespace std::chrono_literals;
 
-void remember(int signal) { received_signal = signal; }
+/// Returns 0, or the error.
+int write_all(int descriptor, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t written = ::write(descriptor, text.data(), text.size());
+        if (written >= 0) {
+            text.remove_prefix(static_cast<std::size_t>(written));
+        } else if (errno == EAGAIN) {  // somebody has made the stream one that does not wait
+            pollfd stream{descriptor, POLLOUT, 0};
+            (void)::poll(&stream, 1, -1);
+        } else if (errno != EINTR) {
+            return errno;
+        }
+    }
+    return 0;
+}
 
-void handle(int signal, void (*handler)(int)) {
-    struct sigaction action {};
-    action.sa_handler = handler;
-    sigemptyset(&action.sa_mask);
-    // After the first one the default returns, so that a second one always ends the program.
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-    sigaction(signal, &action, nullptr);
+// Never destroyed: the thread that ends the program may need it while main returns.
+struct Shared {
+    std::timed_mutex mutex;  ///< held by who writes to standard error
+    std::string work;        ///< what work_on was told
+    bool bar = false;        ///< a progress bar is shown
+    bool broken_pipe_ends = false;
+};
+Shared& shared() {
+    static Shared& one = *new Shared;
+    return one;
+}
+
+constexpr const char* clear_line = "\r\033[K";
+
+/// Waits for a signal and ends the program. Unlike a handler, a thread may wait for files that take their places.
+void wait_for_signal(const sigset_t& signals) {
+    int signal = 0;
+    if (sigwait(&signals, &signal) != 0) return;
+    // Whatever keeps this from its end (a network file system that hangs), a second signal does not wait for.
+    std::signal(signal, SIG_DFL);
+    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+
+    const bool written = discard_staged_files();
+    constexpr auto patience = 100ms;  // somebody may be stuck in writing there
+    const bool alone = shared().mutex.try_lock_for(patience);
+    std::string text = alone && shared().bar ? clear_line : "";
+    text += "footfall: ";
+    if (alone && !shared().work.empty()) text += printable(shared().work) + ": ";
+    text += written ? "interrupted; the files were written already\n" : "interrupted; nothing was written\n";
+    pollfd screen{STDERR_FILENO, POLLOUT, 0};
+    if (::poll(&screen, 1, static_cast<int>(patience.count())) == 1) (void)write_all(STDERR_FILENO, text);
+    ::_exit(ExitCode::signalled + signal);
 }
 
 }  // namespace
 
-void print(std::string_view text) {
-    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-    if (!written) {
-        throw std::runtime_error("cannot write to standard output: " + std::generic_category().message(errno));
+void open_standard_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (::fcntl(stream, F_GETFD) != -1) continue;
+        // The wrong way round, so that using it is an error as before. The lowest number that is free is this one.
+        (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
     }
+}
+
+void print(std::string_view text) {
+    const int error = write_all(STDOUT_FILENO, printable_lines(text));
+    if (error == 0) return;
+    if (error == EPIPE && shared().broken_pipe_ends) {
+        std::signal(SIGPIPE, SIG_DFL);
+        (void)std::raise(SIGPIPE);
+    }
+    throw std::runtime_error("cannot write to standard output: " + (error == EBADF ? "it is closed"
+                                                                    : error == EPIPE
+                                                                        ? "nobody reads it any more"
+                                                                        : std::generic_category().message(error)));
 }
 
 void print_page(std::string page, std::span<const std::filesystem::path> written) {
     if (!written.empty()) page += "\nWritten\n";
-    for (const std::filesystem::path& file : written) page += fmt::format("  {}\n", file.string());
+    for (const std::filesystem::path& file : written) page += fmt::format("  {}\n", printable(file.native()));
     print(page);
 }
 
-SignalGuard::SignalGuard() {
-    received_signal = 0;
-    handle(SIGINT, remember);
-    handle(SIGTERM, remember);
+void say(std::string_view text) {
+    const std::lock_guard alone(shared().mutex);
+    (void)write_all(STDERR_FILENO, printable_lines(text));
 }
 
-SignalGuard::~SignalGuard() {
-    handle(SIGINT, SIG_DFL);
-    handle(SIGTERM, SIG_DFL);
+void end_on_signals() {
+    std::signal(SIGXFSZ, SIG_IGN);
+    shared().broken_pipe_ends = std::signal(SIGPIPE, SIG_IGN) != SIG_IGN;
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction now {};
+        if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) sigaddset(&signals, signal);
+    }
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // in every thread that is made from here on
+    try {
+        std::thread(wait_for_signal, signals).detach();
+    } catch (const std::system_error&) {
+        // No thread to be had: signals end the program as they end any, and the next write sweeps up.
+        pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+    }
 }
 
-int SignalGuard::received() noexcept { return received_signal; }
+void work_on(const std::filesystem::path& file) {
+    const std::lock_guard alone(shared().mutex);
+    shared().work = file.native();
+}
 
 ProgressBar::ProgressBar(double end, bool wanted) : end_(end), wanted_(wanted && ::isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() { clear(); }
 
 void ProgressBar::update(double time) {
-    using namespace std::chrono_literals;
     if (!wanted_) return;
     const Clock::time_point now = Clock::now();
     if (now - start_ < 1s || now - last_ < 100ms) return;
     last_ = now;
-    shown_ = true;
 
     constexpr int length = 40;
     const double done = std::clamp(time / end_, 0.0, 1.0);
@@ -76,15 +149,17 @@ void ProgressBar::update(double time) {
         const double elapsed = std::chrono::duration<double>(now - start_).count();
         rest = fmt::format(", about {:.0f} s left", elapsed * (1 - done) / done);
     }
-    fmt::print(stderr, "\r{} {:3.0f} %  {:.4g} of {:.4g} s{}\033[K", bar, 100 * done, time, end_, rest);
-    std::fflush(stderr);
+    const std::lock_guard alone(shared().mutex);
+    shared().bar = true;
+    (void)write_all(STDERR_FILENO,
+                    fmt::format("\r{} {:3.0f} %  {:.4g} of {:.4g} s{}\033[K", bar, 100 * done, time, end_, rest));
 }
 
 void ProgressBar::clear() {
-    if (!shown_) return;
-    std::fputs("\r\033[K", stderr);
-    std::fflush(stderr);
-    shown_ = false;
+    const std::lock_guard alone(shared().mutex);
+    if (!shared().bar) return;
+    (void)write_all(STDERR_FILENO, clear_line);
+    shared().bar = false;
 }
 
 }  // namespace footfall::cli

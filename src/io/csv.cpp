@@ -1,13 +1,13 @@
 // A run as three tables of comma-separated values.
-#include <cerrno>
 #include <cmath>
+#include <memory>
 #include <string>
-#include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "footfall/io/output.hpp"
+#include "footfall/io/staged_files.hpp"
 #include "io/atomic_file.hpp"
 #include "io/columns.hpp"
 
@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 namespace {
 
 /// One table: a row is started, filled cell by cell, and ended. Numbers are written so that they read back exactly.
-class Table {
+class TableFile {
 public:
-    explicit Table(const fs::path& target) : file_(target) {}
+    explicit TableFile(io::Writer file) : file_(std::move(file)) {}
 
     void heading(std::string_view name, std::string_view unit) {
         separate();
@@ -55,7 +55,6 @@ public:
         flush();
         file_.finish();
     }
-    void commit() { file_.commit(); }
 
 private:
     void separate() {
@@ -67,13 +66,13 @@ private:
         pending_.clear();
     }
 
-    AtomicFile file_;
+    io::Writer file_;
     std::string pending_;
     bool first_ = true;
 };
 
 template <class Of>
-void headings(Table& table, std::span<const columns::Column<Of>> list, std::string_view prefix,
+void headings(TableFile& table, std::span<const columns::Column<Of>> list, std::string_view prefix,
               std::string_view suffix) {
     for (const auto& column : list) {
         const std::string name = fmt::format("{}{}{}", prefix, column.name, suffix);
@@ -85,7 +84,7 @@ void headings(Table& table, std::span<const columns::Column<Of>> list, std::stri
 }
 
 template <class Of>
-void cells(Table& table, std::span<const columns::Column<Of>> list, const Of& object) {
+void cells(TableFile& table, std::span<const columns::Column<Of>> list, const Of& object) {
     for (const auto& column : list) {
         std::array<double, 4> values{};
         column.read(object, values.data());
@@ -93,7 +92,7 @@ void cells(Table& table, std::span<const columns::Column<Of>> list, const Of& ob
     }
 }
 
-void fill_samples(Table& table, const Scenario& scenario, const Run& run) {
+void fill_samples(TableFile& table, const Scenario& scenario, const Run& run) {
     const std::size_t spheres = scenario.simulation.body.spheres.size();
     table.heading("time", "s");
     headings<BodyState>(table, columns::body, "", "");
@@ -125,7 +124,7 @@ void fill_samples(Table& table, const Scenario& scenario, const Run& run) {
     }
 }
 
-void fill_events(Table& table, const Run& run) {
+void fill_events(TableFile& table, const Run& run) {
     table.heading("time", "s");
     table.text("kind");
     table.text("sphere");
@@ -142,7 +141,7 @@ void fill_events(Table& table, const Run& run) {
     }
 }
 
-void fill_impacts(Table& table, const Run& run) {
+void fill_impacts(TableFile& table, const Run& run) {
     table.text("sphere");
     headings<Impact>(table, columns::impact, "", "");
     table.end_row();
@@ -155,33 +154,27 @@ void fill_impacts(Table& table, const Run& run) {
 
 }  // namespace
 
-void check_csv_directory(const fs::path& directory) {
-    std::error_code error;
-    fs::path existing = fs::absolute(directory);
-    while (!fs::exists(existing, error) && existing.has_relative_path()) existing = existing.parent_path();
-    if (!fs::is_directory(existing, error))
-        fail_to_write(directory, fmt::format("{} is not a folder", existing.string()));
-    if (::access(existing.c_str(), W_OK | X_OK) != 0) {
-        fail_to_write(directory,
-                      fmt::format("the folder {}: {}", existing.string(), std::generic_category().message(errno)));
-    }
+void check_csv_directory(const fs::path& directory) { io::check_tables(directory); }
+
+void StagedFiles::add_csv(const fs::path& directory, const Scenario& scenario, const Run& run) {
+    auto tables = std::make_unique<io::AtomicTables>(directory);
+    const auto fill = [&](const char* name, const auto& with) {
+        io::within_memory(directory / name, "give [time] a larger sample, or an earlier end", [&] {
+            TableFile table(tables->table(name));
+            with(table);
+            table.finish();
+        });
+    };
+    fill("samples.csv", [&](TableFile& table) { fill_samples(table, scenario, run); });
+    fill("events.csv", [&](TableFile& table) { fill_events(table, run); });
+    fill("impacts.csv", [&](TableFile& table) { fill_impacts(table, run); });
+    parts_.push_back(std::move(tables));
 }
 
 void write_csv(const fs::path& directory, const Scenario& scenario, const Run& run) {
-    check_csv_directory(directory);
-    std::error_code error;
-    fs::create_directories(directory, error);
-    if (error) fail_to_write(directory, error.message());
-
-    Table samples(directory / "samples.csv");
-    Table events(directory / "events.csv");
-    Table impacts(directory / "impacts.csv");
-    fill_samples(samples, scenario, run);
-    fill_events(events, run);
-    fill_impacts(impacts, run);
-    // No table takes its place before all of them are complete.
-    for (Table* table : {&samples, &events, &impacts}) table->finish();
-    for (Table* table : {&samples, &events, &impacts}) table->commit();
+    StagedFiles files;
+    files.add_csv(directory, scenario, run);
+    files.commit();
 }
 
 }  // namespace footfall

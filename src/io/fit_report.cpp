@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "footfall/io/law_text.hpp"
+#include "footfall/io/printable.hpp"
 #include "footfall/io/units.hpp"
 #include "footfall/version.hpp"
 #include "io/table_remarks.hpp"
@@ -183,7 +184,7 @@ Json law_fit_of(const LawFit& fit, const FitData& data) {
 
 std::string report(const FitStudyResult& result) {
     const FitData& data = result.study.data;
-    std::string page = fmt::format("{}: {}, {} data\n", data.source, measured_text(data), data.x.size());
+    std::string page = fmt::format("{}: {}, {} data\n", printable(data.source), measured_text(data), data.x.size());
     page += io::remarks_text(data.remarks);
     for (const LawFit& fit : result.fits) page += "\n" + law_report(result, fit);
     if (result.fits.size() > 1) {
@@ -212,7 +213,7 @@ std::string to_json(const FitStudyResult& result) {
                     {"best", name_of(result.fits[result.best()].law)},
                     {"laws", laws},
                     {"version", version}};
-    return json.dump(2);
+    return json_text(json);
 }
 
 }  // namespace footfall

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "footfall/io/output.hpp"
+#include "footfall/io/printable.hpp"
 #include "footfall/version.hpp"
 
 namespace footfall {

@@ -1,11 +1,16 @@
 // A run as a NetCDF-4 file. The variables are listed in docs/cli.md.
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <new>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -14,6 +19,7 @@
 #include <netcdf_mem.h>
 
 #include "footfall/io/output.hpp"
+#include "footfall/io/staged_files.hpp"
 #include "io/atomic_file.hpp"
 #include "io/run_dataset.hpp"
 
@@ -25,19 +31,19 @@ using io::RunDataset;
 using io::Variable;
 
 /// A NetCDF file being written, in memory: with a file of its own HDF5 1.10 crashes where the disk is full. Variables
-/// are all defined first and filled after, which NetCDF does fastest.
-class Writer {
+/// are all defined first and filled after, which NetCDF does fastest. One at a time: see netcdf_mutex.
+class NetcdfImage {
 public:
-    explicit Writer(AtomicFile& file) : file_(file) {
+    explicit NetcdfImage(io::Writer file) : file_(std::move(file)) {
         constexpr std::size_t initial_bytes = 1 << 16;  // it grows
         expect(nc_create_mem("run.nc", NC_NETCDF4, initial_bytes, &id_));
         open_ = true;
     }
-    ~Writer() {
+    ~NetcdfImage() {
         if (open_) nc_abort(id_);
     }
-    Writer(const Writer&) = delete;
-    Writer& operator=(const Writer&) = delete;
+    NetcdfImage(const NetcdfImage&) = delete;
+    NetcdfImage& operator=(const NetcdfImage&) = delete;
 
     void write(const RunDataset& data) {
         for (const auto& [name, length] : data.dimensions) {
@@ -59,6 +65,7 @@ public:
         expect(nc_close_memio(id_, &image));
         const std::unique_ptr<void, decltype(&std::free)> owner(image.memory, std::free);
         file_.write({static_cast<const char*>(image.memory), image.size});
+        file_.finish();
     }
 
 private:
@@ -130,24 +137,46 @@ private:
     }
 
     void expect(int status) const {
-        if (status != NC_NOERR) file_.fail(fmt::format("NetCDF: {}", nc_strerror(status)));
+        if (status == NC_NOERR) return;
+        if (status == NC_ENOMEM || status == ENOMEM) throw std::bad_alloc();
+        // Positive ones are the system's.
+        io::fail_to_write(file_.target(),
+                          status > 0 ? std::generic_category().message(status)
+                                     : fmt::format("its content could not be put together as NetCDF-4 (error {} of the "
+                                                   "library that does so); most often the memory does not suffice: "
+                                                   "give [time] a larger sample",
+                                                   status));
     }
 
-    AtomicFile& file_;
+    io::Writer file_;
     int id_ = 0;
     bool open_ = false;
 };
 
+/// The NetCDF library, and HDF5 under it, are for one thread at a time.
+std::mutex& netcdf_mutex() {
+    static std::mutex one;
+    return one;
+}
+
 }  // namespace
 
-void check_netcdf_file(const fs::path& file) { const AtomicFile attempt(file); }
+void check_netcdf_file(const fs::path& file) { const io::AtomicFile attempt(file); }
+
+void StagedFiles::add_netcdf(const fs::path& file, const Scenario& scenario, const Run& run) {
+    auto atomic = std::make_unique<io::AtomicFile>(file);
+    io::within_memory(file, "give [time] a larger sample, or an earlier end", [&] {
+        const RunDataset data = io::run_dataset(scenario, run);
+        const std::lock_guard alone(netcdf_mutex());
+        NetcdfImage(atomic->writer()).write(data);
+    });
+    parts_.push_back(std::move(atomic));
+}
 
 void write_netcdf(const fs::path& file, const Scenario& scenario, const Run& run) {
-    AtomicFile atomic(file);
-    const RunDataset data = io::run_dataset(scenario, run);
-    Writer(atomic).write(data);
-    atomic.finish();
-    atomic.commit();
+    StagedFiles files;
+    files.add_netcdf(file, scenario, run);
+    files.commit();
 }
 
 }  // namespace footfall

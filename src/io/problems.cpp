@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "footfall/io/printable.hpp"
+
 namespace footfall {
 namespace {
 
@@ -23,42 +25,6 @@ std::string_view cut(std::string_view text, std::size_t size) {
     return text.substr(0, size);
 }
 
-/// How many bytes the character at the start of `text` has, in UTF-8; 0 where there is none.
-std::size_t character_size(std::string_view text) {
-    const auto first = static_cast<unsigned char>(text.front());
-    const std::size_t size = first < 0x80   ? 1
-                             : first < 0xC2 ? 0
-                             : first < 0xE0 ? 2
-                             : first < 0xF0 ? 3
-                             : first < 0xF5 ? 4
-                                            : 0;
-    if (size == 0 || size > text.size()) return 0;
-    for (std::size_t i = 1; i < size; ++i)
-        if ((static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U) return 0;
-    return size;
-}
-
-/// The text as one line of UTF-8: line breaks, control characters and bytes that are no character become escapes.
-std::string printable(std::string_view text) {
-    std::string line;
-    while (!text.empty()) {
-        const std::size_t size = character_size(text);
-        const auto code = static_cast<unsigned char>(text.front());
-        constexpr unsigned char first_printable = 0x20, delete_character = 0x7F;
-        if (code == '\n') {
-            line += "\\n";
-        } else if (code == '\t') {
-            line += "\\t";
-        } else if (size == 0 || code < first_printable || code == delete_character) {
-            line += fmt::format("\\x{:02x}", code);
-        } else {
-            line += text.substr(0, size);
-        }
-        text.remove_prefix(std::max(size, std::size_t{1}));
-    }
-    return line;
-}
-
 std::string as_text(const std::string& file, const std::vector<ScenarioProblem>& problems, std::size_t more) {
     std::string text;
     const std::size_t in_full = std::min(problems.size(), most_in_full);
@@ -66,11 +32,11 @@ std::string as_text(const std::string& file, const std::vector<ScenarioProblem>&
         const ScenarioProblem& problem = problems[i];
         if (!text.empty()) text += '\n';
         text += problem.setting.empty()
-                    ? fmt::format("{}:{}:{}: {}", file, problem.line, problem.column, problem.message)
-                    : fmt::format("{}: {}", problem.setting, problem.message);
+                    ? fmt::format("{}:{}:{}: {}", printable(file), problem.line, problem.column, problem.message)
+                    : fmt::format("{}: {}", printable(problem.setting), problem.message);
     }
     const std::size_t rest = problems.size() - in_full + more;
-    if (rest > 0) text += fmt::format("\n{}: ... and {} more problem{}", file, rest, rest == 1 ? "" : "s");
+    if (rest > 0) text += fmt::format("\n{}: ... and {} more problem{}", printable(file), rest, rest == 1 ? "" : "s");
     return text;
 }
 

@@ -245,7 +245,8 @@ private:
             return TrianglePart{record.number("amplitude"), record.number("frequency"), record.number("start"),
                                 cycles()};
         try {
-            return read_points(folder_ / record.text("file"), record.text("time"), record.text("column"), sought,
+            made_.tables.push_back(folder_ / record.text("file"));
+            return read_points(made_.tables.back(), record.text("time"), record.text("column"), sought,
                                made_.rig.remarks);
         } catch (const ScenarioError& error) {
             for (const ScenarioProblem& problem : error.problems()) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "footfall/io/law_text.hpp"
+#include "footfall/io/printable.hpp"
 #include "footfall/io/rig.hpp"
 #include "footfall/io/table_output.hpp"
 #include "footfall/version.hpp"
@@ -128,11 +129,11 @@ std::string to_json(const Rig& rig, const std::vector<RigRun>& runs) {
                     {"runs", list},
                     {"samples", Json::parse(to_json(drive_table(rig, named(runs))))["columns"]},
                     {"version", version}};
-    return json.dump(2);
+    return json_text(json);
 }
 
 std::string summary(const Rig& rig, const std::vector<RigRun>& runs) {
-    std::string page = rig.title.empty() ? "" : rig.title + "\n\n";
+    std::string page = rig.title.empty() ? "" : printable(rig.title) + "\n\n";
     page += io::remarks_text(rig.remarks);
     for (const RigRun& run : runs) {
         for (const std::string& line : text::wrap(fmt::format("{}: normal {}; friction {}", run.named.name,

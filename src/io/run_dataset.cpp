@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "footfall/io/printable.hpp"
 #include "footfall/version.hpp"
 #include "io/columns.hpp"
 
@@ -257,7 +258,7 @@ RunDataset run_dataset(const Scenario& scenario, const Run& run) {
     data.dimension("event", run.events.size());
     data.dimension("impact", run.impacts.size());
 
-    data.attribute("title", scenario.title);
+    data.attribute("title", printable(scenario.title));
     data.attribute("source", fmt::format("footfall {}", version));
     data.attribute("footfall_version", version);
     data.attribute("tolerance", scenario.simulation.options.tolerance);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "footfall/io/output.hpp"
+#include "footfall/io/printable.hpp"
 #include "footfall/version.hpp"
 #include "io/columns.hpp"
 #include "io/text.hpp"
@@ -354,7 +355,7 @@ std::string cost(const Run& run) {
 
 std::string summary(const Scenario& scenario) {
     const RunOptions& options = scenario.simulation.options;
-    const std::string title = scenario.title.empty() ? "A run without a title" : scenario.title;
+    const std::string title = scenario.title.empty() ? "A run without a title" : printable(scenario.title);
     return fmt::format("{}\n{}\n  {} s at a relative tolerance of {}\n\n{}", title,
                        text::repeat("━", std::min(text::width(title), page_width)), number(options.end_time),
                        number(options.tolerance), setup(scenario));

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "footfall/io/printable.hpp"
+#include "footfall/io/staged_files.hpp"
 #include "footfall/math/error.hpp"
 #include "footfall/version.hpp"
 #include "io/atomic_file.hpp"
@@ -39,11 +42,30 @@ std::string csv_cell(const std::string& text) {
     return quoted + '"';
 }
 
-/// Text that stays on one line, for a comment.
-std::string one_line(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    return text;
+void fill(io::Writer& output, const Table& table) {
+    constexpr std::size_t block = 1 << 20;
+    const std::size_t rows = rows_of(table);
+    std::string content = fmt::format("# {}\n# footfall {}\n", printable(table.title), version);
+    for (const Column& column : table.columns) {
+        content +=
+            fmt::format("# {} [{}]: {}\n", printable(full_name(column)), column.unit, printable(column.description));
+    }
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+        content += fmt::format("{}{}", i == 0 ? "" : ",", csv_cell(printable(full_name(table.columns[i]))));
+    }
+    content += '\n';
+    for (std::size_t row = 0; row < rows; ++row) {
+        for (std::size_t i = 0; i < table.columns.size(); ++i) {
+            const double value = table.columns[i].values[row];
+            if (i > 0) content += ',';
+            if (!std::isnan(value)) fmt::format_to(std::back_inserter(content), "{}", value);
+        }
+        content += '\n';
+        if (content.size() < block) continue;
+        output.write(content);
+        content.clear();
+    }
+    output.write(content);
 }
 
 // What a person reads -------------------------------------------------------------------------------------------------
@@ -69,8 +91,9 @@ struct Rows {
 
 Shown show(const Column& column, const std::string& series, bool any_series, const Rows& rows) {
     const std::string unit = column.unit == "1" ? "" : fmt::format("[{}]", column.unit);
-    const std::string name = any_series && !unit.empty() ? column.name + " " + unit : column.name;
-    const std::string& above = any_series ? series : column.name;
+    const std::string own = printable(column.name);
+    const std::string name = any_series && !unit.empty() ? own + " " + unit : own;
+    const std::string& above = any_series ? series : own;
     const std::string& below = any_series ? name : unit;
     Shown shown{.head = above + "\n" + below,
                 .cells = {},
@@ -101,29 +124,22 @@ std::string block(const std::vector<const Shown*>& columns, const Rows& rows) {
 
 }  // namespace
 
+void check_csv_file(const std::filesystem::path& file) { const io::AtomicFile attempt(file); }
+
+void StagedFiles::add_csv(const std::filesystem::path& file, const Table& table) {
+    auto output = std::make_unique<io::AtomicFile>(file);
+    io::within_memory(file, "ask for fewer rows", [&] {
+        io::Writer writer = output->writer();
+        fill(writer, table);
+        writer.finish();
+    });
+    parts_.push_back(std::move(output));
+}
+
 void write_csv(const std::filesystem::path& file, const Table& table) {
-    const std::size_t rows = rows_of(table);
-    std::string content = fmt::format("# {}\n# footfall {}\n", one_line(table.title), version);
-    for (const Column& column : table.columns) {
-        content +=
-            fmt::format("# {} [{}]: {}\n", one_line(full_name(column)), column.unit, one_line(column.description));
-    }
-    for (std::size_t i = 0; i < table.columns.size(); ++i) {
-        content += fmt::format("{}{}", i == 0 ? "" : ",", csv_cell(full_name(table.columns[i])));
-    }
-    content += '\n';
-    AtomicFile output(file);
-    for (std::size_t row = 0; row < rows; ++row) {
-        for (std::size_t i = 0; i < table.columns.size(); ++i) {
-            const double value = table.columns[i].values[row];
-            if (i > 0) content += ',';
-            if (!std::isnan(value)) fmt::format_to(std::back_inserter(content), "{}", value);
-        }
-        content += '\n';
-    }
-    output.write(content);
-    output.finish();
-    output.commit();
+    StagedFiles files;
+    files.add_csv(file, table);
+    files.commit();
 }
 
 std::string to_json(const Table& table) {
@@ -137,7 +153,7 @@ std::string to_json(const Table& table) {
                            {"series", column.series},
                            {"values", column.values}});
     }
-    return Json{{"title", table.title}, {"columns", columns}, {"version", version}}.dump(2);
+    return json_text(Json{{"title", table.title}, {"columns", columns}, {"version", version}});
 }
 
 std::string to_text(const Table& table, std::size_t max_rows) {
@@ -153,14 +169,14 @@ std::string to_text(const Table& table, std::size_t max_rows) {
     const bool numbered = std::any_of(series.begin(), series.end(),
                                       [](const std::string& name) { return text::width(name) > longest_series; });
     const auto label = [&](const std::string& name) {
-        if (name.empty() || !numbered) return name;
+        if (name.empty() || !numbered) return printable(name);
         return fmt::format("({})", std::find(series.begin(), series.end(), name) - series.begin() + 1);
     };
 
     std::string page;
-    for (const std::string& line : text::wrap(table.title, page_width)) page += line + '\n';
+    for (const std::string& line : text::wrap(printable(table.title), page_width)) page += line + '\n';
     for (std::size_t i = 0; numbered && i < series.size(); ++i) {
-        page += fmt::format("  ({}) {}\n", i + 1, series[i]);
+        page += fmt::format("  ({}) {}\n", i + 1, printable(series[i]));
     }
     std::vector<Shown> columns;
     for (const Column& column : table.columns) {

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "footfall/io/printable.hpp"
 #include "footfall/study/table.hpp"
 #include "io/text.hpp"
 
@@ -13,8 +14,8 @@ namespace footfall::io {
 /// A line for each note and warning, indented by two.
 [[nodiscard]] inline std::string remarks_text(const TableRemarks& remarks) {
     std::string page;
-    for (const std::string& note : remarks.notes) page += text::hanging(note);
-    for (const std::string& warning : remarks.warnings) page += text::hanging("Warning: " + warning);
+    for (const std::string& note : remarks.notes) page += text::hanging(printable(note));
+    for (const std::string& warning : remarks.warnings) page += text::hanging("Warning: " + printable(warning));
     return page;
 }
 

@@ -14,6 +14,7 @@ namespace footfall {
 struct RigFile {
     Rig rig;
     ContactParameters laws;
+    std::vector<std::filesystem::path> tables = {};  ///< the files that its paths were read from
     std::string text = {};           ///< the file as it was read; with settings, the file that they make of it
     bool friction_left_out = false;  ///< nothing was said of friction; law = "none" says that there is none
 };

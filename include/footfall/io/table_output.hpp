@@ -12,6 +12,9 @@ namespace footfall {
 /// std::runtime_error, naming the file.
 void write_csv(const std::filesystem::path& file, const Table& table);
 
+/// Throws what write_csv would throw for a file that cannot be made there; ask before a long study.
+void check_csv_file(const std::filesystem::path& file);
+
 /// {"title", "columns": [{"name", "unit", "description", "series", "values"}], "version"}. Every number reads back
 /// exactly; NaN is null.
 [[nodiscard]] std::string to_json(const Table& table);
