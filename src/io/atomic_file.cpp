@@ -299,7 +299,7 @@ void check_tables(const fs::path& target) {
 AtomicTables::AtomicTables(const fs::path& target) : target_(target) {
     check_tables(target);
     std::error_code error;
-    place_ = fs::weakly_canonical(target, error);
+    place_ = fs::weakly_canonical(fs::absolute(target, error), error);
     if (error) fail(error.value());
     if (!place_.has_filename() && place_.has_relative_path()) place_ = place_.parent_path();  // "DIR/"
     parent_ = place_.parent_path();
