@@ -6,6 +6,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 SOAK ?= 100000
 FUZZ ?= 5000
 SEED ?= 2010
+KILLS ?= 200
 CLANG_FORMAT ?= clang-format-16
 CLANG_TIDY ?= clang-tidy-16
 
@@ -23,7 +24,7 @@ help:  ## This list
 	@echo
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-14s%s\n", $$1, $$2}' Makefile
 	@echo
-	@echo "Variables: BUILD=$(BUILD) PREFIX=$(PREFIX) JOBS=$(JOBS) SOAK=$(SOAK) FUZZ=$(FUZZ) SEED=$(SEED)"
+	@echo "Variables: BUILD=$(BUILD) PREFIX=$(PREFIX) JOBS=$(JOBS) SOAK=$(SOAK) FUZZ=$(FUZZ) SEED=$(SEED) KILLS=$(KILLS)"
 
 deps:  ## Install the Debian packages that are missing
 	@scripts/install-deps.sh
@@ -76,6 +77,10 @@ fuzz: build  ## Feed the command line FUZZ broken and odd inputs (5000), drawn b
 
 fit-coverage: build-all  ## How often a fit's intervals hold the truth (about a minute)
 	$(BUILD)/bench/fit_coverage
+
+.PHONY: kill-test
+kill-test: build  ## Kill every command that writes, KILLS times (200), and look at what is left
+	@scripts/kill-test.py --footfall $(BUILD)/footfall --kills $(KILLS)
 
 format:  ## Format every C++ file
 	@$(CLANG_FORMAT) -i $(FORMATTED)
