@@ -42,13 +42,19 @@ std::string csv_cell(const std::string& text) {
     return quoted + '"';
 }
 
+/// Text for a comment: a line end of the text is none of the file.
+std::string comment(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return printable(text);
+}
+
 void fill(io::Writer& output, const Table& table) {
     constexpr std::size_t block = 1 << 20;
     const std::size_t rows = rows_of(table);
-    std::string content = fmt::format("# {}\n# footfall {}\n", printable(table.title), version);
+    std::string content = fmt::format("# {}\n# footfall {}\n", comment(table.title), version);
     for (const Column& column : table.columns) {
-        content +=
-            fmt::format("# {} [{}]: {}\n", printable(full_name(column)), column.unit, printable(column.description));
+        content += fmt::format("# {} [{}]: {}\n", comment(full_name(column)), column.unit, comment(column.description));
     }
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
         content += fmt::format("{}{}", i == 0 ? "" : ",", csv_cell(printable(full_name(table.columns[i]))));

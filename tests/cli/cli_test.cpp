@@ -90,8 +90,17 @@ protected:
         std::vector<char*> arguments;
         for (std::string& word : owned) arguments.push_back(word.data());
         arguments.push_back(nullptr);
+        // What runs the tests in the background may ignore Ctrl-C, and the program would go on doing so.
+        posix_spawnattr_t attributes;
+        posix_spawnattr_init(&attributes);
+        sigset_t asked;
+        sigemptyset(&asked);
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&asked, signal);
+        posix_spawnattr_setsigdefault(&attributes, &asked);
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
         pid_t child = -1;
-        EXPECT_EQ(posix_spawn(&child, FOOTFALL_CLI, &actions, nullptr, arguments.data(), environ), 0);
+        EXPECT_EQ(posix_spawn(&child, FOOTFALL_CLI, &actions, &attributes, arguments.data(), environ), 0);
+        posix_spawnattr_destroy(&attributes);
         posix_spawn_file_actions_destroy(&actions);
         return child;
     }
@@ -242,14 +251,16 @@ TEST_F(Cli, AToleranceOnTheCommandLineReplacesTheScenarios) {
 
 TEST_F(Cli, OutputThatCannotBeWrittenExitsWithOneAndLeavesNothing) {
     const std::string file = folder.write("ball.toml", scenario()).string();
+    const std::string other = folder.write("other", "older").string();
     for (const Words& output :
-         {Words{"-o", (folder / "none" / "ball.nc").string()}, {"-o", "/dev/null"}, {"--csv", file}}) {
+         {Words{"-o", (folder / "none" / "ball.nc").string()}, {"-o", "/dev/null"}, {"--csv", other}}) {
         const Result result = footfall({"run", file, output[0], output[1]});
         EXPECT_EQ(result.exit_code, 1);
         EXPECT_EQ(result.out, "");
         EXPECT_EQ(result.err.find("footfall: cannot write " + output[1] + ": "), 0U) << result.err;
     }
-    EXPECT_EQ(folder.names(), (std::set<std::string>{"ball.toml"}));
+    EXPECT_EQ(folder.names(), (std::set<std::string>{"ball.toml", "other"}));
+    EXPECT_EQ(read_text(other), "older");
 }
 
 TEST_F(Cli, ShowsItsProgressOnATerminalAndStopsCleanlyWhenInterrupted) {

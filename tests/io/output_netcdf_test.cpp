@@ -1,7 +1,10 @@
 // The NetCDF file of a run, read back with NetCDF's own interface.
 #include <cmath>
 #include <cstring>
+#include <thread>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <netcdf.h>
 #include <signal.h>
@@ -358,6 +361,24 @@ TEST_F(OutputNetcdf, KeepsTheOlderTablesWhereTheDiskIsFull) {
     EXPECT_EXIT(write(), ::testing::ExitedWithCode(7), "cannot write .*samples.csv: File too large");
     EXPECT_EQ(folder.names(), (std::set<std::string>{"events.csv", "impacts.csv", "samples.csv"}));
     for (const std::string& name : folder.names()) EXPECT_EQ(read_text(folder / name), "older") << name;
+}
+
+TEST_F(OutputNetcdf, SeveralThreadsWriteAtOnce) {
+    write_netcdf(folder / "alone.nc", scenario, run);
+    const std::string expected = read_text(folder / "alone.nc");
+    constexpr int count = 8, times = 5;
+    std::vector<std::thread> threads;
+    for (int i = 0; i < count; ++i) {
+        threads.emplace_back([&, i] {
+            for (int k = 0; k < times; ++k) {
+                write_netcdf(folder / fmt::format("{}.nc", i), scenario, run);
+                check_netcdf_file(folder / "alone.nc");
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    for (int i = 0; i < count; ++i) EXPECT_EQ(read_text(folder / fmt::format("{}.nc", i)), expected) << i;
+    EXPECT_EQ(folder.names().size(), count + 1U);
 }
 
 }  // namespace
