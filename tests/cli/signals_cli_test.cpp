@@ -62,7 +62,7 @@ TEST_F(SignalsCli, EveryCommandEndsWithinASecond) {
 end = 1e4
 max_evaluations = 1e12
 load = [{ shape = "constant", value = 10 }]
-displacement = [{ shape = "sine", amplitude = 1e-4, frequency = 100, direction = 0 }]
+displacement = [{ shape = "sine", amplitude = 1e-4, frequency = 50, direction = 0 }]
 [contact.normal]
 law = "hertz"
 stiffness = 1e8
