@@ -10,15 +10,15 @@
 namespace footfall {
 
 /// Writes the run as NetCDF-4: dimensions time, sphere, axis, quaternion, event, impact; units and long names on every
-/// variable; the scenario's text and the version as attributes. The file appears whole or not at all. Throws
-/// std::runtime_error, naming the file.
+/// variable; the scenario's text and the version as attributes. The file appears whole or not at all. May be called from
+/// several threads at once. Throws std::runtime_error, naming the file.
 void write_netcdf(const std::filesystem::path& file, const Scenario& scenario, const Run& run);
 
 /// Throws what write_netcdf would throw for a file that cannot be made there; ask before a long run.
 void check_netcdf_file(const std::filesystem::path& file);
 
-/// Writes samples.csv, events.csv and impacts.csv into `directory`, made where it is missing. Each appears whole or
-/// not at all, and none before all three are complete. Throws std::runtime_error, naming the file.
+/// Writes samples.csv, events.csv and impacts.csv into `directory`, made where it is missing. They appear together, and
+/// what else is there stays: docs/cli.md, "Files that are written". Throws std::runtime_error, naming the file.
 void write_csv(const std::filesystem::path& directory, const Scenario& scenario, const Run& run);
 
 /// Throws what write_csv would throw for a directory that cannot be made or written; ask before a long run.
