@@ -94,6 +94,14 @@ void refuse_what_must_stay(const fs::path& target, const fs::path& place) {
     }
     // A write-protected file is protected for a reason.
     if (::access(place.c_str(), W_OK) != 0) fail_to_write(target, describe(errno));
+    // In a folder such as /tmp only the owner of a file, or of the folder, may replace it.
+    struct stat file {
+    }, folder{};
+    if (::stat(place.c_str(), &file) != 0 || ::stat(folder_of(place).c_str(), &folder) != 0) return;
+    const uid_t user = ::geteuid();
+    if ((folder.st_mode & S_ISVTX) != 0 && user != 0 && user != file.st_uid && user != folder.st_uid) {
+        fail_to_write(target, why_no_rename(EPERM));
+    }
 }
 
 void refuse_folder(const fs::path& target, const fs::path& folder) {
