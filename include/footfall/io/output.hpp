@@ -10,8 +10,8 @@
 namespace footfall {
 
 /// Writes the run as NetCDF-4: dimensions time, sphere, axis, quaternion, event, impact; units and long names on every
-/// variable; the scenario's text and the version as attributes. The file appears whole or not at all. May be called from
-/// several threads at once. Throws std::runtime_error, naming the file.
+/// variable; the scenario's text and the version as attributes. The file appears whole or not at all. May be called
+/// from several threads at once. Throws std::runtime_error, naming the file.
 void write_netcdf(const std::filesystem::path& file, const Scenario& scenario, const Run& run);
 
 /// Throws what write_netcdf would throw for a file that cannot be made there; ask before a long run.
