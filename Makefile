@@ -79,8 +79,8 @@ fit-coverage: build-all  ## How often a fit's intervals hold the truth (about a 
 	$(BUILD)/bench/fit_coverage
 
 .PHONY: kill-test
-kill-test: build  ## Kill every command that writes, KILLS times (200), and look at what is left
-	@scripts/kill-test.py --footfall $(BUILD)/footfall --kills $(KILLS)
+kill-test: build  ## Kill what writes files KILLS times (200), with EVERY=1 also at each call
+	@scripts/kill-test.py --footfall $(BUILD)/footfall --kills $(KILLS) $(if $(EVERY),--every)
 
 format:  ## Format every C++ file
 	@$(CLANG_FORMAT) -i $(FORMATTED)
