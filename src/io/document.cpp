@@ -434,9 +434,9 @@ struct Document::Parsed {
 };
 
 Document::Document(std::string_view text, const std::string& file, const std::vector<Setting>& settings) {
-    const auto refuse = [&file](const Position& at, std::string message) {
+    const auto refuse = [&file](const Position& at, const std::string& message) {
         Problems problems(file);
-        problems.add(at, std::move(message));
+        problems.add(at, std::string_view(message));
         problems.throw_if_any();
     };
     const TomlScan scan = scan_toml(text);
