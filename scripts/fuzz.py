@@ -95,7 +95,7 @@ class Input:
 
 # Texts ---------------------------------------------------------------------------------------------------------------
 
-PAIR = re.compile(r"^(\s*)([\w.-]+)(\s*=\s*)(.*?)(\s*#.*)?$")
+PAIR = re.compile(r"^(\s*)([\w.-]+)(\s*=\s*)(.*)$")  # no pattern that goes back over long values
 
 
 def odd_number(rng):
@@ -139,19 +139,19 @@ def mutate_lines(rng, text, others):
     choice = rng.randrange(14)
     if pairs and choice <= 5:
         i = rng.choice(pairs)
-        indent, key, equals, value, comment = PAIR.match(lines[i]).groups()
-        lines[i] = f"{indent}{key}{equals}{odd_value(rng, value)}{comment or ''}"
+        indent, key, equals, value = PAIR.match(lines[i]).groups()
+        lines[i] = f"{indent}{key}{equals}{odd_value(rng, value)}"
     elif pairs and choice == 6:
         del lines[rng.choice(pairs)]
     elif pairs and choice == 7:
         lines.insert(rng.randint(0, len(lines)), lines[rng.choice(pairs)])
     elif pairs and choice == 8:
         i = rng.choice(pairs)
-        indent, key, equals, value, comment = PAIR.match(lines[i]).groups()
+        indent, key, equals, value = PAIR.match(lines[i]).groups()
         letters = list(key)
         letters[rng.randrange(len(letters))] = rng.choice("abcxyz_-.0 é\"'=")
         key = rng.choice(["".join(letters), key * 3, ".".join([key] * rng.choice([2, 30, 2000])), key.upper(), f'"{key}"'])
-        lines[i] = f"{indent}{key}{equals}{value}{comment or ''}"
+        lines[i] = f"{indent}{key}{equals}{value}"
     elif heads and choice == 9:
         i = rng.choice(heads)
         name = lines[i].strip().strip("[]")
@@ -473,7 +473,8 @@ def one(number, seed, footfall, sources, scratch, limit):
     except (ValueError, OSError):  # no command line at all: a zero byte, too long
         shutil.rmtree(folder)
         return number, made, None, None, 0.0
-    return number, made, done, wrong_with(made, done, limit), time.monotonic() - started
+    seconds = time.monotonic() - started
+    return number, made, done, wrong_with(made, done, limit), seconds
 
 
 def keep(keep_in, seed, number, made, done, wrong):
