@@ -439,8 +439,8 @@ def wrong_with(made, done, limit):
         return f"an error of {len(err)} bytes"
     if done.returncode == 2 and made.kind in ("run", "drive") and made.file.name not in err:
         return "wrong input that names no file"
-    if done.returncode == 2 and made.kind in ("fit", "oblique") and made.file.name not in err and "--" not in err:
-        return "wrong input that names neither file nor option"
+    if done.returncode == 2 and made.kind in ("fit", "oblique") and made.file.name not in err and "--" not in err and "=?" not in err:
+        return "wrong input that names neither file, option nor parameter"
     if done.returncode == 0 and made.json:
         try:
             document = json.loads(out, parse_constant=not_json)
