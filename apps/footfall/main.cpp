@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "footfall/io/printable.hpp"
 #include "footfall/io/scenario.hpp"
+#include "footfall/io/table_input.hpp"
 #include "footfall/math/error.hpp"
 #include "terminal.hpp"
 #include "usage.hpp"
@@ -100,6 +101,9 @@ int main(int argc, char** argv) {
     end_on_signals();
     try {
         return parse_and_run(argc, argv);
+    } catch (const footfall::BadRows& error) {
+        say(fmt::format("footfall: {}\n--skip-bad-rows leaves such rows out\n", error.what()));
+        return ExitCode::wrong_input;
     } catch (const footfall::ScenarioError& error) {  // one line for each problem
         say(fmt::format("footfall: {}\n", error.what()));
         return ExitCode::wrong_input;

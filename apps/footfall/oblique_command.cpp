@@ -231,11 +231,9 @@ int sweep(const ObliqueArguments& arguments) {
 
 /// Reads the data; where their signs are the other way round than the model's from the start, a warning says so.
 ObliqueData read_data(const ObliqueArguments& arguments, const ObliqueSphere& sphere) {
-    ObliqueData data = saying_how_to_skip([&] {
-        return load_oblique_data(
-            arguments.data, sphere, [&](double theta, double omega) { return approach_of(arguments, theta, omega); },
-            arguments.input);
-    });
+    ObliqueData data = load_oblique_data(
+        arguments.data, sphere, [&](double theta, double omega) { return approach_of(arguments, theta, omega); },
+        arguments.input);
     for (const std::string& key : arguments.vary) {
         if (data.needs_coefficient && key.ends_with("coefficient"))
             throw InvalidInput(fmt::format("--vary {}: {} is in units of mu, so mu cannot be fitted to it", key,
@@ -328,10 +326,11 @@ int fit(const ObliqueArguments& arguments) {
     std::vector<std::string>& warnings = result.result.warnings;
     warnings.insert(warnings.begin(), data.remarks.warnings.begin(), data.remarks.warnings.end());
     if (signs_differ(measured.values, result.model)) {
-        warnings.push_back(fmt::format(
-            "{} has the other sign than in the model, where motion is along +x and top spin is positive; a minus before "
-            "the column turns it: --column NAME=-COLUMN",
-            measured.observable));
+        warnings.push_back(
+            fmt::format("{} has the other sign than in the model, where motion is along +x and top spin is positive; a "
+                        "minus before "
+                        "the column turns it: --column NAME=-COLUMN",
+                        measured.observable));
     }
     if (arguments.csv) {
         write_csv(*arguments.csv, Table{"Measured and fitted",
