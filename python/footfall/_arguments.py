@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -171,6 +171,19 @@ def text(name: str, value: Any, *, null: bool = False) -> str:
     if "\0" in value and not null:
         raise InvalidInput(f"{name}: {value[:40]!r} is not allowed: it has a null character")
     return value
+
+
+def texts(name: str, value: Any) -> dict[str, str]:
+    """Texts by their names; none where nothing is given. Numbers are taken for their texts."""
+    if value is None:
+        return {}
+    if not isinstance(value, Mapping):
+        raise TypeError(f"{name}: a dict of texts is wanted, not {described(value)}")
+    made = {}
+    for key, item in value.items():
+        number_like = isinstance(item, (int, float)) and not isinstance(item, bool)
+        made[text(f"{name}: a key", key)] = str(item) if number_like else text(f"{name}[{key!r}]", item)
+    return made
 
 
 def path(name: str, value: Any) -> Path:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import io
 import math
 import os
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -275,7 +276,8 @@ def drive(
         for friction_name, friction_law in frictions.items():
             both = f"{normal_name} + {friction_name}" if len(frictions) > 1 else normal_name
             pairs.append((both if len(normals) > 1 else friction_name, (normal_law, friction_law)))
-    table, summaries = _studies.drive(file, name, pairs, tolerance)
+    table, summaries, doubts = _studies.drive(file, name, pairs, tolerance)
+    _warn(doubts)
     data = _labelled(table, "time", coordinate=True)
     if "series" not in data.coords:
         data = data.assign_coords(series=np.array([pair_name for pair_name, _ in pairs], dtype=object))
@@ -491,6 +493,11 @@ class Fit(Compared):
     """The one with the smallest AICc."""
     report: str
     """A page for a person, as ``footfall fit`` prints it."""
+    notes: list[str]
+    """What was read as what, which columns were not used, how many rows were left out; whole sentences."""
+    warnings: list[str]
+    """What of the data may not be meant, such as depths in metres without a unit; whole sentences. Python's
+    :mod:`warnings` has them too."""
 
     def __str__(self) -> str:
         return self.report.rstrip("\n")
@@ -498,6 +505,12 @@ class Fit(Compared):
     def __repr__(self) -> str:
         laws_ = f"{len(self.fits)} law{'s' * (len(self.fits) != 1)}"
         return f"<footfall.studies.Fit of {laws_} to {self.dataset.sizes['row']} rows: best is {self.best!r}>"
+
+
+def _warn(doubts: list[str]) -> None:
+    """Says what a caller may not have meant, at the line that called the study."""
+    for text in doubts:
+        warnings.warn(text, stacklevel=3)
 
 
 #: Points to search from that make sense: with more, somebody has mistaken the argument for another.
@@ -516,14 +529,21 @@ def fit(
     starts: int = 4,
     confidence: float = 0.95,
     sigma_is_true: bool = False,
+    columns: Mapping[str, str] | None = None,
+    where: Mapping[str, str] | None = None,
+    skip_bad_rows: bool = False,
+    kind: Literal["restitution", "force-indentation", "force-time"] | None = None,
+    gravity: float = 9.81,
 ) -> Fit:
     """Fits parameters of normal laws to measurements.
 
     Parameters
     ----------
     data
-        A CSV file, or a table in SI units, with the columns speed and restitution; or indentation, force and perhaps
-        rate; or time and force. A column sigma has the standard deviations.
+        A file, or a DataFrame, with a column for each quantity, read as ``docs/tables.md`` says: speed and restitution
+        (or speeds or heights before and after, or the times of bounces); or indentation, force and perhaps rate; or
+        time and force. A column sigma has the standard deviations. Units stand in the columns' names, "speed [mm/s]";
+        without one they are in SI units.
     normal
         One law or several in a list, as text; ``?`` stands for what is fitted:
         ``"azad-featherstone:stiffness=?,damping=?"``, ``"...=?8e6"`` with a start, ``"...=?1e6..1e7"`` with bounds.
@@ -539,6 +559,17 @@ def fit(
         Of the intervals.
     sigma_is_true
         The column sigma has true standard deviations, not only their ratios.
+    columns
+        Which column holds a quantity, where its name does not tell: ``{"speed": "U [mm/s]"}``. A minus before the
+        column's name turns the sign of its numbers.
+    where
+        Only the rows that have these values in these columns: ``{"series": "Experiment"}``.
+    skip_bad_rows
+        Rows that cannot be used are left out and counted in :attr:`Fit.notes`; otherwise they are errors.
+    kind
+        What was measured, where the columns fit more than one kind.
+    gravity
+        [m/s^2], > 0: turns heights and times of flight into speeds.
 
     Raises
     ------
@@ -552,6 +583,10 @@ def fit(
     confidence = _arguments.number("confidence", confidence, above=0)
     quasistatic = _arguments.flag("quasistatic", quasistatic)
     sigma_is_true = _arguments.flag("sigma_is_true", sigma_is_true)
+    skip_bad_rows = _arguments.flag("skip_bad_rows", skip_bad_rows)
+    gravity = _arguments.number("gravity", gravity, "m/s^2", above=0)
+    if kind is not None:
+        _arguments.choice("kind", kind, ("restitution", "force-indentation", "force-time"))
     if isinstance(normal, str):
         texts = [_arguments.text("normal", normal)]
     elif isinstance(normal, Iterable) and not isinstance(normal, bytes):
@@ -575,9 +610,14 @@ def fit(
             return None if value is None else _arguments.text(name, value)
         return repr(_arguments.number(name, value))
 
-    table, results, best, report = _studies.fit(
+    table, results, best, report, notes, doubts = _studies.fit(
         file,
         csv,
+        _arguments.texts("columns", columns),
+        list(_arguments.texts("where", where).items()),
+        skip_bad_rows,
+        kind,
+        gravity,
         texts,
         written("mass", mass),
         written("speed", speed),
@@ -589,7 +629,8 @@ def fit(
         sigma_is_true,
     )
     fits = [_law_fit(**result) for result in results]
-    return Fit(_labelled(table), fits, fits[best], report)
+    _warn(doubts)
+    return Fit(_labelled(table), fits, fits[best], report, notes, doubts)
 
 
 def _law_fit(estimates: Any, correlation: Any, combinations: Any, **rest: Any) -> LawFit:

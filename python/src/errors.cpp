@@ -5,8 +5,11 @@
 #include <string>
 #include <system_error>
 
+#include <fmt/format.h>
+
 #include "bind.hpp"
 #include "footfall/io/scenario.hpp"
+#include "footfall/io/table_input.hpp"
 #include "footfall/math/error.hpp"
 #include "footfall/simulate/run.hpp"
 
@@ -21,13 +24,13 @@ void raise(const char* type, const char* message) {
 }
 
 /// (line, column, message) of each problem goes with the exception.
-void raise(const ScenarioError& error) {
+void raise(const ScenarioError& error, const std::string& message) {
     nb::list problems;
     for (const ScenarioProblem& problem : error.problems()) {
         problems.append(nb::make_tuple(problem.line, problem.column, printable(problem.message)));
     }
     const nb::object type = nb::module_::import_("footfall.errors").attr("ScenarioError");
-    const nb::object exception = type(printable(error.what()), problems);
+    const nb::object exception = type(printable(message), problems);
     PyErr_SetObject(type.ptr(), exception.ptr());
 }
 
@@ -47,8 +50,10 @@ void bind_errors(nb::module_& /*module*/) {
     nb::register_exception_translator([](const std::exception_ptr& thrown, void* /*payload*/) {
         try {
             std::rethrow_exception(thrown);
+        } catch (const BadRows& error) {
+            raise(error, fmt::format("{}\nskip_bad_rows=True leaves such rows out", error.what()));
         } catch (const ScenarioError& error) {
-            raise(error);
+            raise(error, error.what());
         } catch (const InvalidInput& error) {
             raise("InvalidInput", error.what());
         } catch (const TooExpensive& error) {

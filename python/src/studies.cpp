@@ -1,6 +1,8 @@
 // The studies, each as a function that returns its table: what footfall/studies.py labels.
 #include <filesystem>
+#include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -163,7 +166,7 @@ void bind_drive(nb::module_& module) {
                 }
                 summaries.append(summary);
             }
-            return nb::make_tuple(as_columns(drive_table(rig, runs)), summaries);
+            return nb::make_tuple(as_columns(drive_table(rig, runs)), summaries, rig.remarks.warnings);
         },
         nb::arg("rig"), nb::arg("name"), nb::arg("laws"), nb::arg("tolerance").none());
 }
@@ -231,10 +234,16 @@ void bind_fit(nb::module_& module) {
     module.def(
         "fit",
         [](const std::optional<std::filesystem::path>& file, const std::string& csv,
-           const std::vector<std::string>& laws, const std::optional<std::string>& mass,
-           const std::optional<std::string>& speed, const std::string& touchdown, bool quasistatic,
-           const std::string& loss, int starts, double confidence, bool noise_is_known) {
-            FitStudy study{.data = file ? load_fit_data(*file) : parse_fit_data(csv)};
+           const std::map<std::string, std::string, std::less<>>& table_columns,
+           const std::vector<std::pair<std::string, std::string>>& where, bool skip_bad_rows,
+           const std::optional<std::string>& kind, double gravity, const std::vector<std::string>& laws,
+           const std::optional<std::string>& mass, const std::optional<std::string>& speed,
+           const std::string& touchdown, bool quasistatic, const std::string& loss, int starts, double confidence,
+           bool noise_is_known) {
+            FitInput input{{table_columns, where, skip_bad_rows}, std::nullopt, gravity};
+            for (const Measured one : {Measured::restitution, Measured::force_indentation, Measured::force_time})
+                if (kind == name_of(one)) input.kind = one;
+            FitStudy study{.data = file ? load_fit_data(*file, input) : parse_fit_data(csv, "data", input)};
             for (const std::string& law : laws) study.laws.push_back(parse_fit_law(law));
             const auto value = [](const char* name, const std::string& given, const char* unit) {
                 try {
@@ -287,9 +296,12 @@ void bind_fit(nb::module_& module) {
                 entry["converged"] = one.result.converged;
                 fits.append(entry);
             }
-            return nb::make_tuple(as_columns(table(result)), fits, result.best(), report(result));
+            const TableRemarks& remarks = result.study.data.remarks;
+            return nb::make_tuple(as_columns(table(result)), fits, result.best(), report(result), remarks.notes,
+                                  remarks.warnings);
         },
-        nb::arg("file").none(), nb::arg("csv"), nb::arg("laws"), nb::arg("mass").none(), nb::arg("speed").none(),
+        nb::arg("file").none(), nb::arg("csv"), nb::arg("columns"), nb::arg("where"), nb::arg("skip_bad_rows"),
+        nb::arg("kind").none(), nb::arg("gravity"), nb::arg("laws"), nb::arg("mass").none(), nb::arg("speed").none(),
         nb::arg("touchdown"), nb::arg("quasistatic"), nb::arg("loss"), nb::arg("starts"), nb::arg("confidence"),
         nb::arg("noise_is_known"));
 }

@@ -1,37 +1,14 @@
 // Text from elsewhere that no terminal takes for an instruction.
 #include "footfall/io/printable.hpp"
 
-#include <array>
-#include <optional>
-
 #include <fmt/format.h>
+
+#include "io/utf8.hpp"
 
 namespace footfall {
 namespace {
 
-/// A character, and how many bytes it has.
-struct Character {
-    char32_t code;
-    std::size_t size;
-};
-
-/// The first character of UTF-8 text that is not empty; none where it does not begin with one (RFC 3629: no overlong
-/// forms, no surrogates, nothing above U+10FFFF).
-std::optional<Character> first_of(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char lead = byte(0);
-    if (lead < 0x80) return Character{lead, 1};
-    const std::size_t size = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-    if (lead < 0xc2 || lead > 0xf4 || text.size() < size) return std::nullopt;
-    char32_t code = lead & (0x7fU >> size);
-    for (std::size_t i = 1; i < size; ++i) {
-        if ((byte(i) & 0xc0U) != 0x80U) return std::nullopt;
-        code = code << 6U | (byte(i) & 0x3fU);
-    }
-    constexpr std::array<char32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
-    if (code < least[size] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return std::nullopt;
-    return Character{code, size};
-}
+using io::first_character;
 
 /// A terminal would act on it, or a reader would not see it where it stands.
 bool acts(char32_t c) {
@@ -62,7 +39,7 @@ std::string clean(std::string_view text, bool keep_line_ends) {
     std::string result;
     result.reserve(text.size());
     while (!text.empty()) {
-        const auto character = first_of(text);
+        const auto character = first_character(text);
         const std::size_t size = character ? character->size : 1;
         if (!character) {
             result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
@@ -86,7 +63,7 @@ std::string printable_json(std::string_view json) {
     std::string result;
     result.reserve(json.size());
     while (!json.empty()) {
-        const auto character = first_of(json);
+        const auto character = first_character(json);
         const std::size_t size = character ? character->size : 1;
         if (!character) {
             result += "\\ufffd";

@@ -10,6 +10,7 @@
 #include "footfall/math/error.hpp"
 #include "io/nearest.hpp"
 #include "io/read.hpp"
+#include "io/utf8.hpp"
 
 namespace footfall::io {
 namespace {
@@ -36,7 +37,8 @@ std::string first_of(const List& list, std::size_t most = 10) {
 
 TableReader::TableReader(std::string text, std::string name, std::vector<Sought> sought, const TableInput& input,
                          std::string_view wanted)
-    : text_(std::move(text)),
+    : is_utf8_(is_utf8(text)),
+      text_(is_utf8_ ? std::move(text) : from_windows_1252(text)),
       name_(std::move(name)),
       problems_(name_),
       sought_(std::move(sought)),
@@ -45,6 +47,7 @@ TableReader::TableReader(std::string text, std::string name, std::vector<Sought>
     columns_ = std::make_unique<Columns>(table_, sought_, input_, problems_);
     problems_.throw_if_any();
     pick_rows();
+    if (!is_utf8_) remarks_.notes.emplace_back("The text is no UTF-8; it was read as Windows-1252 (Latin-1).");
 }
 
 void TableReader::pick_rows() {

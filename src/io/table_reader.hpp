@@ -59,6 +59,7 @@ private:
     void note_left_out(const std::vector<int>& lines, std::size_t rows);
     void warn_of_numbers(std::span<const FoundColumn> columns, const std::vector<std::vector<double>>& values);
 
+    bool is_utf8_;
     std::string text_;
     std::string name_;
     Problems problems_;

@@ -85,6 +85,15 @@ TEST(TableReader, PassesOverWhatIsAroundTheTable) {
     expect_curve("speed,remark,restitution\n0.1,\"a \"\"good\"\", long\nremark\",0.779\n1.25,none,0.66\n");
 }
 
+TEST(TableReader, ReadsTheEncodingOfOlderSpreadsheets) {
+    // "time [µs]" and "remark with ü" in Windows-1252.
+    const FitData trace = parse_fit_data("time [\xB5s],force [N],Gr\xFC\xDF\x65\n29,0.5,\x80\n", "lab.csv");
+    EXPECT_EQ(trace.x, (std::vector<double>{29e-6}));
+    EXPECT_EQ(trace.remarks.notes,
+              (std::vector<std::string>{"The text is no UTF-8; it was read as Windows-1252 (Latin-1).",
+                                        "Columns that are not used: Gr\u00fc\u00dfe."}));
+}
+
 TEST(TableReader, TakesUnitsInEveryPlace) {
     expect_curve("speed [mm/s],restitution [%]\n100,77.9\n1250,66\n");
     expect_curve("speed (mm/s),restitution (-)\n100,0.779\n1250,0.66\n");
