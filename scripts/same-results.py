@@ -3,8 +3,8 @@
 
     scripts/same-results.py OLD_FOOTFALL NEW_FOOTFALL
 
-What may differ: wall_seconds; version; stick_time of an impact, which is new; and the time of an event that the old
-program put before the event that it follows, which the new one puts at the same time.
+What may differ: wall_seconds; version; stick_time of an impact and the warnings of a rig, which are new; and the time of
+an event that the old program put before the event that it follows, which the new one puts at the same time.
 """
 
 import argparse
@@ -15,7 +15,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 NOT_COMPARED = ("wall_seconds", "version")
-ADDED = ("stick_time",)
+ADDED = ("stick_time", "warnings")
 
 
 def output(footfall, command, file):
