@@ -38,7 +38,7 @@ std::string first_of(const List& list, std::size_t most = 10) {
 TableReader::TableReader(std::string text, std::string name, std::vector<Sought> sought, const TableInput& input,
                          std::string_view wanted)
     : is_utf8_(is_utf8(text)),
-      text_(is_utf8_ ? std::move(text) : from_windows_1252(text)),
+      text_(decoded(std::move(text), name)),
       name_(std::move(name)),
       problems_(name_),
       sought_(std::move(sought)),

@@ -11,6 +11,7 @@
 #include "io/nearest.hpp"
 #include "io/read.hpp"
 #include "io/text.hpp"
+#include "io/utf8.hpp"
 
 namespace footfall::io {
 namespace {
@@ -96,21 +97,8 @@ constexpr std::array separators{Separator::tab, Separator::semicolon, Separator:
                                 Separator::blank};
 
 std::string_view name_of(Separator separator) {
-    switch (separator) {
-        case Separator::tab:
-            return "tabs";
-        case Separator::semicolon:
-            return "semicolons";
-        case Separator::comma:
-            return "commas";
-        case Separator::wide_blank:
-            return "wide blanks";
-        case Separator::blank:
-            return "blanks";
-        case Separator::none:
-            break;
-    }
-    return "nothing";
+    constexpr std::array<std::string_view, 6> names{"tabs", "semicolons", "commas", "wide blanks", "blanks", "nothing"};
+    return names[static_cast<std::size_t>(separator)];
 }
 
 /// The length of the separator at `place`; 0 where there is none.
@@ -270,16 +258,6 @@ private:
 /// "sep=;", with which a spreadsheet is told how to split a file.
 bool is_separator_line(std::string_view line) { return line.size() == 5 && line.starts_with("sep="); }
 
-void check_encoding(std::string_view text, const std::string& name) {
-    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-        refuse(name, {}, "the file is in UTF-16; save it as UTF-8, or as plain CSV");
-    const std::size_t zero = text.find('\0');
-    if (zero == std::string_view::npos) return;
-    const auto line =
-        static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n'));
-    refuse(name, {line + 1, 1}, "this is no table of text: there is a zero byte in it");
-}
-
 }  // namespace
 
 Position Cell::at() const {
@@ -297,8 +275,18 @@ bool is_number_or_gap(std::string_view cell) {
     return std::find(gaps.begin(), gaps.end(), word) != gaps.end();
 }
 
+std::string decoded(std::string text, const std::string& name) {
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+        refuse(name, {}, "the file is in UTF-16; save it as UTF-8, or as plain CSV");
+    const std::size_t zero = text.find('\0');
+    if (zero != std::string::npos) {
+        const auto lines = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n');
+        refuse(name, {static_cast<int>(lines) + 1, 1}, "this is no table of text: there is a zero byte in it");
+    }
+    return is_utf8(text) ? std::move(text) : from_windows_1252(text);
+}
+
 TableText split_table(std::string_view text, const std::string& name, std::string_view wanted) {
-    check_encoding(text, name);
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the byte order mark of a spreadsheet
     Lines all = lines_of(text, name);
     if (!all.lines.empty() && is_separator_line(trimmed(all.lines.front().text))) all.lines.erase(all.lines.begin());
