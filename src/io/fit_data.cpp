@@ -40,10 +40,10 @@ enum Name : std::size_t {
 };
 
 // What no sphere does in a laboratory: a number beyond it without a unit was meant in another one.
-constexpr double fast = 300;         // m/s
+constexpr double fast = 100;         // m/s
 constexpr double deep = 0.1;         // m
 constexpr double long_contact = 10;  // s
-constexpr double high = 100;         // m
+constexpr double high = 10;          // m
 
 const std::vector<Sought> quantities{
     {.name = "speed",
@@ -114,21 +114,21 @@ const std::vector<Sought> quantities{
                "outbound_velocity",
                "separation_speed",
                "separation_velocity"},
-     .range = io::not_negative},
+     .range = io::not_negative,
+     .plausible = fast},
     {.name = "drop_height",
      .unit = "m",
-     .names = {"height", "h", "h_0", "h0", "h_drop", "h_in", "height_in", "drop", "fall_height", "release_height",
-               "initial_height"},
+     .names = {"height", "h", "h_0", "h0", "h_drop", "fall_height", "release_height", "initial_height"},
      .range = io::positive,
      .plausible = high},
     {.name = "rebound_height",
      .unit = "m",
-     .names = {"h_r", "hr", "h_rebound", "h_out", "h_bounce", "height_out", "rebound", "bounce_height",
-               "return_height"},
-     .range = io::not_negative},
+     .names = {"h_r", "hr", "h_rebound", "h_bounce", "rebound", "bounce_height", "return_height"},
+     .range = io::not_negative,
+     .plausible = high},
     {.name = "bounce_time",
      .unit = "s",
-     .names = {"bounce_times", "impact_time", "time_of_impact", "time_of_bounce", "t_impact", "t_bounce"},
+     .names = {"bounce_times", "time_of_bounce", "t_bounce"},
      .order = Sought::Order::rising},
     {.name = "flight_time",
      .unit = "s",
@@ -197,6 +197,12 @@ public:
         if (way.kind == Measured::force_indentation && table_.has(rate)) used.push_back(rate);
         const bool weighted = table_.has(sigma) && way.columns.size() > 1;
         if (weighted) used.push_back(sigma);
+        // A standard deviation that has no unit of its own is in that of its column.
+        if (way.columns.size() > 1) table_.share_unit(sigma, way.columns[1]);
+        if (way.columns.size() == 1) {
+            table_.keep_all_rows(
+                "bad rows of successive bounces cannot be left out: without one, two flights would be one");
+        }
         std::vector<std::vector<double>> values = table_.read(used, check_of(way));
         if (weighted) {
             data_.sigma = std::move(values.back());
@@ -225,6 +231,9 @@ private:
             const auto there = [&](Name name) { return table_.has(name); };
             if (input_.kind && way.kind != *input_.kind) continue;
             if (!std::all_of(way.columns.begin(), way.columns.end(), there)) continue;
+            // Where there is a speed or a height, a time alone says nothing of restitution.
+            const std::array others{speed, restitution, speed_out, drop_height, rebound_height};
+            if (way.columns.size() == 1 && std::any_of(others.begin(), others.end(), there)) continue;
             if (fitting.empty() || fitting.back()->kind != way.kind) kinds.emplace_back(name_of(way.kind));
             fitting.push_back(&way);
         }
@@ -272,9 +281,6 @@ private:
 
     /// Between bounces the ball flies for T: it leaves, and comes back, at g T/2.
     void from_bounces(Name column, std::vector<double> values) {
-        if (input_.skip_bad_rows)
-            throw InvalidInput(fmt::format(
-                "{}: bad rows of successive bounces cannot be left out: without one, two flights would be one", name_));
         if (column == bounce_time) {
             std::adjacent_difference(values.begin(), values.end(), values.begin());
             values.erase(values.begin());

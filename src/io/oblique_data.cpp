@@ -45,7 +45,8 @@ std::vector<Sought> quantities() {
          .unit = "deg",
          .names = {"theta", "θ", "incident", "incidence", "incident_angle", "incidence_angle", "impact_angle",
                    "angle_of_incidence"},
-         .range = {0, 90, false, true}},
+         .range = {0, 90, false, true},
+         .hardly = 1.6},  // a right angle in radians
         {.name = "spin",
          .unit = "rad/s",
          .names = {"spin_in", "spin_before", "initial_spin", "omega_in", "omega_before", "omega_0"}},

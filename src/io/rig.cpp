@@ -174,7 +174,11 @@ TablePart read_points(const std::filesystem::path& file, const std::string& time
     // The default is a time by any of its names.
     if (time != "time") input.columns.emplace("time", time);
     io::TableReader table(io::read_file(file), file.string(),
-                          {{.name = "time", .unit = "s", .names = {"t"}, .order = io::Sought::Order::rising}, sought},
+                          {{.name = "time",
+                            .unit = "s",
+                            .names = {"t", "elapsed", "elapsed_time", "timestamp"},
+                            .order = io::Sought::Order::rising},
+                           sought},
                           input, "needed are a time and the column of the path");
     if (!table.has(of_time)) table.refuse_header("there is no column 'time'; `time` names it");
     std::vector<std::vector<double>> values = table.read(std::array{std::size_t{of_time}, std::size_t{of_value}});

@@ -53,20 +53,37 @@ std::optional<Unit> readable_unit(std::string_view text) {
     }
 }
 
-std::vector<std::string_view> parts_of(std::string_view name) {
-    std::vector<std::string_view> parts;
-    for (std::size_t begin = 0;;) {
-        const std::size_t end = std::min(name.find('_', begin), name.size());
-        parts.push_back(name.substr(begin, end - begin));
-        if (end == name.size()) return parts;
+/// The words of a name.
+std::vector<std::string_view> words_of(std::string_view name) {
+    constexpr std::string_view gaps = "_ -.,:";
+    std::vector<std::string_view> words;
+    for (std::size_t begin = 0; begin < name.size();) {
+        const std::size_t end = std::min(name.find_first_of(gaps, begin), name.size());
+        if (end > begin) words.push_back(name.substr(begin, end - begin));
         begin = end + 1;
     }
+    return words;
+}
+
+bool has_letter(std::string_view word) {
+    const auto letter = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%' || static_cast<unsigned char>(c) >= 0x80;
+    };
+    return std::any_of(word.begin(), word.end(), letter);
+}
+
+/// The same unit, however it is written.
+bool same_unit(std::string_view a, std::string_view b) {
+    const auto first = readable_unit(a), second = readable_unit(b);
+    return a == b || (first && second && first->dimension == second->dimension && first->factor == second->factor &&
+                      first->exponent == second->exponent);
 }
 
 /// What words after an underscore may mean: "us"; "rad_s" and "rad_per_s" are rad/s, "N_m" N/m or N m; "s2" is s^2.
 std::vector<std::string> unit_readings(std::span<const std::string_view> words) {
     std::vector<std::string> units;
     for (const std::string_view word : words) {
+        if (!has_letter(word)) return {};
         std::string unit(word);
         const bool power = unit.size() > 1 && (unit.back() == '2' || unit.back() == '3');
         if (power) unit.insert(unit.size() - 1, "^");
@@ -86,14 +103,17 @@ Columns::Columns(TableText& table, std::span<const Sought> sought, const TableIn
     : table_(table), sought_(sought) {
     for (const Cell& cell : table.header) heads_.push_back(head_of(cell.text));
     // In a long table the column "value" holds what the rows that are picked are called.
-    if (input.where.size() == 1) {
-        for (Head& head : heads_) {
-            const std::string name = normalized(head.name);
-            if (name == "value" || name == "values") head.name = input.where.front().second;
+    for (Head& head : heads_) {
+        const std::string name = normalized(head.name);
+        if (name != "value" && name != "values") continue;
+        for (const auto& where : input.where) {
+            const Head called = head_of(where.second);
+            if (!named_quantity(called.name)) continue;
+            head.name = called.name;
+            if (head.unit.empty()) head.unit = called.unit;
         }
     }
-    take_row_of_units();
-    if (!row_units_.empty()) table.rows.erase(table.rows.begin());
+    take_row_of_units(table);
 
     std::vector<std::string> names;
     for (const Sought& one : sought) names.emplace_back(one.name);
@@ -126,22 +146,31 @@ const std::string& Columns::row_unit(std::size_t column) const {
     return column < row_units_.size() ? row_units_[column] : none;
 }
 
-/// A row right below the header in which no cell is a number and one at least is a unit.
-void Columns::take_row_of_units() {
-    if (table_.rows.empty()) return;
+/// The units of a row in which no cell is a number and one at least is a unit; empty where it is none.
+std::vector<std::string> Columns::units_of(const Cells& cells) {
     std::vector<std::string> units;
     bool any = false;
-    for (const Cell& cell : table_.rows.front()) {
+    for (const Cell& cell : cells) {
         std::string_view text = cell.text;
         const bool brackets = text.size() >= 2 && ((text.front() == '[' && text.back() == ']') ||
                                                    (text.front() == '(' && text.back() == ')'));
         if (brackets) text = trimmed(text.substr(1, text.size() - 2));
-        const bool none = text.empty() || text == "-" || text == "1";
-        if (!none && is_number_or_gap(text)) return;
-        any |= brackets || (!none && readable_unit(text));
-        units.emplace_back(text);
+        const bool without = is_gap(text) || text == "1";
+        if (!without && is_number(text)) return {};
+        any |= brackets || (!without && readable_unit(text));
+        units.emplace_back(without ? "" : text);
     }
-    if (any) row_units_ = std::move(units);
+    return any ? units : std::vector<std::string>{};
+}
+
+/// Units may stand in the first row, or in a comment above it.
+void Columns::take_row_of_units(TableText& table) {
+    if (!table.rows.empty()) row_units_ = units_of(table.rows.front());
+    if (!row_units_.empty()) {
+        table.rows.erase(table.rows.begin());
+    } else {
+        row_units_ = units_of(table.comment_below);
+    }
 }
 
 std::optional<std::size_t> Columns::known(std::string_view name) const {
@@ -158,12 +187,23 @@ bool Columns::has_dimension_of(const Sought& sought, std::string_view unit) cons
     return read && (sought.unit.empty() || read->dimension == parse_unit(sought.unit).dimension);
 }
 
-/// The unit that a name ends with, "us" of "time_us", where it is one of the quantity's dimension.
-std::string Columns::suffix_unit(std::string_view name, const Sought& sought) const {
-    const std::vector<std::string_view> parts = parts_of(name);
-    for (std::size_t length = std::min<std::size_t>(3, parts.size() - 1); length > 0; --length) {
-        for (const std::string& unit : unit_readings(std::span(parts).last(length)))
-            if (has_dimension_of(sought, unit)) return unit;
+/// The unit in a name that was chosen for a quantity: "us" of "time_us", "mm/s" of "U in mm/s".
+std::string Columns::unit_within(std::string_view name, const Sought& sought) const {
+    for (const std::string_view between : {"/", " in "}) {
+        const std::size_t place = name.find(between);
+        if (place == std::string_view::npos) continue;
+        const std::string_view rest = trimmed(name.substr(place + between.size()));
+        if (!rest.empty() && has_dimension_of(sought, rest)) return std::string(rest);
+    }
+    // The unit of a speed may have a stroke of its own: "u mm/s".
+    const std::size_t blank = name.rfind(' ');
+    const std::string_view last = blank == std::string_view::npos ? std::string_view{} : name.substr(blank + 1);
+    if (has_letter(last) && has_dimension_of(sought, last)) return std::string(last);
+    const std::vector<std::string_view> words = words_of(name);
+    for (std::size_t length = 3; length > 0; --length) {
+        for (std::size_t begin = 1; begin + length <= words.size(); ++begin)
+            for (const std::string& unit : unit_readings(std::span(words).subspan(begin, length)))
+                if (has_dimension_of(sought, unit)) return unit;
     }
     return "";
 }
@@ -175,65 +215,99 @@ void Columns::choose(std::size_t sought, std::string_view text, Problems& proble
         found.sign = -1;
         text = trimmed(text.substr(1));
     }
-    const std::optional<std::size_t> column = named(text);
-    if (!column) {
+    std::string asked;
+    std::vector<std::size_t> columns = all_named(text);
+    // "Force (filtered) [N]" asks for the column "Force (filtered)" in N.
+    const std::size_t bracket = text.rfind('[');
+    if (bracket != std::string_view::npos && text.ends_with(']')) {
+        const std::string_view name = trimmed(text.substr(0, bracket));
+        if (columns.empty()) columns = all_named(name);
+        if (columns.size() == 1 && table_.header[columns.front()].text != text)
+            asked = trimmed(text.substr(bracket + 1, text.size() - bracket - 2));
+    } else if (const Head head = head_of(text); columns.size() == 1 && table_.header[columns.front()].text != text) {
+        asked = head.unit;
+    }
+    if (columns.size() != 1) {
         problems.add(table_.header.front().at(), fmt::format("{}: {}", sought_[sought].name, no_column(text)));
         return;
     }
-    chosen_.push_back(sought);
-    found.column = *column;
-    const Head asked = head_of(text);
-    const std::string& own = heads_[*column].unit.empty() ? row_unit(*column) : heads_[*column].unit;
-    // The whole text may be a name of the header, "force (filtered)", in which case there is no unit to ask for.
-    const bool asks = !asked.unit.empty() && table_.header[*column].text != text;
-    if (asks && !own.empty() && asked.unit != own) {
-        problems.add(table_.header[*column].at(), fmt::format("{} has the unit {}, but {} asks for {}",
-                                                              quoted(table_.header[*column]), own, text, asked.unit));
+    found.column = columns.front();
+    const Cell& cell = table_.header[found.column];
+    const auto holds = [&](const FoundColumn& one) { return one.column == found.column; };
+    if (std::any_of(found_.begin(), found_.end(), holds)) {
+        problems.add(cell.at(), fmt::format("{} is chosen for two quantities", quoted(cell)));
         return;
     }
-    found.unit = asks ? asked.unit : own;
-    if (found.unit.empty()) found.unit = suffix_unit(heads_[*column].name, sought_[sought]);
+    chosen_.push_back(sought);
+    const Head& head = heads_[found.column];
+    std::string own = head.unit.empty() ? row_unit(found.column) : head.unit;
+    const std::string within = unit_within(head.name, sought_[sought]);
+    if (own.empty()) own = within;
+    // What stands in parentheses may be no unit at all, "force (filtered)"; the user then says which it is.
+    const bool replaces = own.empty() || (!asked.empty() && !readable_unit(own));
+    if (!asked.empty() && !replaces && !same_unit(asked, own)) {
+        problems.add(cell.at(), fmt::format("{} has the unit {}, but {} asks for {}", quoted(cell), own, text, asked));
+        return;
+    }
+    found.unit = asked.empty() ? own : asked;
+    if (!within.empty() && !same_unit(within, found.unit)) found.other = within;
     found_.push_back(std::move(found));
+}
+
+std::optional<Columns::Named> Columns::named_quantity(std::string_view name) const {
+    if (const auto whole = known(name)) return Named{*whole, ""};
+    // "F / N", "speed in mm/s".
+    for (const std::string_view between : {"/", " in "}) {
+        const std::size_t place = name.find(between);
+        if (place == std::string_view::npos) continue;
+        const std::string_view rest = trimmed(name.substr(place + between.size()));
+        if (const auto sought = known(trimmed(name.substr(0, place)))) return Named{*sought, std::string(rest)};
+    }
+    // A unit among the words of the name, most often the last: "time_us", "final_omega_rad_s".
+    const std::vector<std::string_view> words = words_of(name);
+    constexpr std::size_t longest = 3, most_words = 12;
+    if (words.size() > most_words) return std::nullopt;
+    for (std::size_t length = 1; length <= longest && length < words.size(); ++length) {
+        for (std::size_t begin = words.size() - length; begin > 0; --begin) {
+            std::vector<std::string_view> rest(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(begin));
+            rest.insert(rest.end(), words.begin() + static_cast<std::ptrdiff_t>(begin + length), words.end());
+            const auto sought = known(fmt::format("{}", fmt::join(rest, "_")));
+            if (!sought) continue;
+            for (std::string& reading : unit_readings(std::span(words).subspan(begin, length)))
+                if (has_dimension_of(sought_[*sought], reading)) return Named{*sought, std::move(reading)};
+        }
+    }
+    return std::nullopt;
 }
 
 void Columns::find_by_name(std::size_t column) {
     const auto holds = [&](const FoundColumn& one) { return one.column == column; };
     if (std::any_of(found_.begin(), found_.end(), holds)) return;
-    const auto add = [&](std::size_t sought, std::string unit) {
-        if (std::find(chosen_.begin(), chosen_.end(), sought) != chosen_.end()) return;
-        found_.push_back({.sought = sought, .column = column, .unit = std::move(unit)});
-    };
     const Head& head = heads_[column];
-    const std::string& unit = head.unit.empty() ? row_unit(column) : head.unit;
-    if (const auto whole = known(head.name)) return add(*whole, unit);
-    // "F / N", "speed in mm/s".
-    for (const std::string_view between : {"/", " in "}) {
-        const std::size_t place = head.name.find(between);
-        if (place == std::string::npos || !unit.empty()) continue;
-        const std::string_view name = head.name;
-        const std::string_view rest = trimmed(name.substr(place + between.size()));
-        if (const auto sought = known(trimmed(name.substr(0, place)))) return add(*sought, std::string(rest));
+    auto quantity = named_quantity(head.name);
+    if (!quantity || std::find(chosen_.begin(), chosen_.end(), quantity->sought) != chosen_.end()) return;
+    FoundColumn found{.sought = quantity->sought, .column = column};
+    found.unit = head.unit.empty() ? row_unit(column) : head.unit;
+    if (found.unit.empty()) {
+        found.unit = std::move(quantity->unit);
+    } else if (!quantity->unit.empty() && !same_unit(quantity->unit, found.unit)) {
+        found.other = std::move(quantity->unit);
     }
-    // A unit among the words of the name, most often the last: "time_us", "final_omega_rad_s".
-    const std::vector<std::string_view> parts = parts_of(head.name);
-    constexpr std::size_t longest = 3;
-    for (std::size_t length = 1; length <= longest && length < parts.size(); ++length) {
-        for (std::size_t begin = parts.size() - length + 1; begin-- > 0;) {
-            std::vector<std::string_view> rest(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(begin));
-            rest.insert(rest.end(), parts.begin() + static_cast<std::ptrdiff_t>(begin + length), parts.end());
-            const auto sought = known(fmt::format("{}", fmt::join(rest, "_")));
-            if (!sought) continue;
-            for (const std::string& reading : unit_readings(std::span(parts).subspan(begin, length)))
-                if (has_dimension_of(sought_[*sought], reading)) return add(*sought, unit.empty() ? reading : unit);
-        }
-    }
+    found_.push_back(std::move(found));
 }
 
 bool Columns::has(std::size_t sought) const {
     return std::any_of(found_.begin(), found_.end(), [&](const FoundColumn& one) { return one.sought == sought; });
 }
 
-std::vector<FoundColumn> Columns::use(std::span<const std::size_t> used, Problems& problems) const {
+std::vector<FoundColumn> Columns::use(std::span<const std::size_t> used,
+                                      std::span<const std::pair<std::size_t, std::size_t>> shares,
+                                      Problems& problems) const {
+    const auto unit_of_found = [&](std::size_t sought) -> std::string {
+        for (const FoundColumn& one : found_)
+            if (one.sought == sought) return one.unit;
+        return "";
+    };
     std::vector<FoundColumn> columns;
     for (const std::size_t sought : used) {
         const FoundColumn* first = nullptr;
@@ -251,6 +325,8 @@ std::vector<FoundColumn> Columns::use(std::span<const std::size_t> used, Problem
             }
             first = &one;
             columns.push_back(one);
+            for (const auto& [sharing, of] : shares)
+                if (sharing == sought && one.unit.empty()) columns.back().unit = unit_of_found(of);
             convert(columns.back(), problems);
         }
     }
@@ -265,7 +341,12 @@ void Columns::convert(FoundColumn& found, Problems& problems) const {
         return;
     }
     const std::string& below = row_unit(found.column);
-    if (!head.unit.empty() && !below.empty() && head.unit != below) {
+    if (!found.other.empty()) {
+        problems.add(cell.at(), fmt::format("{}: is it in {} or in {}? Give the unit once", quoted(cell), found.other,
+                                            found.unit));
+        return;
+    }
+    if (!head.unit.empty() && !below.empty() && !same_unit(head.unit, below)) {
         problems.add(cell.at(), fmt::format("{}: the row below says {}; give the unit once", quoted(cell), below));
         return;
     }
@@ -285,18 +366,27 @@ void Columns::convert(FoundColumn& found, Problems& problems) const {
     }
 }
 
-std::optional<std::size_t> Columns::named(std::string_view name) const {
+std::vector<std::size_t> Columns::all_named(std::string_view name) const {
+    std::vector<std::size_t> columns;
     for (std::size_t column = 0; column < table_.header.size(); ++column)
-        if (table_.header[column].text == name) return column;
+        if (table_.header[column].text == name) columns.push_back(column);
+    if (!columns.empty()) return columns;
     const std::string wanted = normalized(head_of(name).name);
     for (std::size_t column = 0; column < heads_.size(); ++column)
-        if (!wanted.empty() && normalized(heads_[column].name) == wanted) return column;
-    return std::nullopt;
+        if (!wanted.empty() && normalized(heads_[column].name) == wanted) columns.push_back(column);
+    return columns;
+}
+
+std::optional<std::size_t> Columns::named(std::string_view name) const {
+    const std::vector<std::size_t> columns = all_named(name);
+    return columns.size() == 1 ? std::optional(columns.front()) : std::nullopt;
 }
 
 std::string Columns::no_column(std::string_view name) const {
     std::vector<std::string> names;
-    for (const Cell& cell : table_.header) names.emplace_back(cell.text);
+    for (const Cell& cell : table_.header) names.emplace_back(shown(cell.text));
+    if (const std::size_t count = all_named(name).size(); count > 1)
+        return fmt::format("there are {} columns '{}' (columns here: {})", count, name, listed(names));
     return fmt::format("no column '{}'{} (columns here: {})", name, did_you_mean(name, names), listed(names));
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "footfall/io/table_input.hpp"
@@ -27,13 +28,15 @@ struct Sought {
     enum class Order { any, not_falling, rising } order = Order::any;
     /// Beyond it [unit] a number without a unit is hardly meant, and a warning says so.
     double plausible = std::numeric_limits<double>::infinity();
+    double hardly = 0;  ///< the same where no number reaches it
 };
 
 /// The column of a table that holds a sought quantity.
 struct FoundColumn {
     std::size_t sought = 0;
     std::size_t column = 0;
-    std::string unit = {};  ///< as the table or the user gives it; empty: none
+    std::string unit = {};   ///< as the table or the user gives it; empty: none
+    std::string other = {};  ///< another unit that its name or the row below gives
     double sign = 1;
     Unit scale = {};  ///< to the sought unit
 };
@@ -49,11 +52,14 @@ public:
     [[nodiscard]] bool has(std::size_t sought) const;
     /// The columns of these quantities, each of which is there. Adds to `problems` where one is there twice, or has a
     /// unit that cannot be read or is of another dimension.
-    [[nodiscard]] std::vector<FoundColumn> use(std::span<const std::size_t> used, Problems& problems) const;
+    /// A quantity of `shares` that has no unit has that of its partner.
+    [[nodiscard]] std::vector<FoundColumn> use(std::span<const std::size_t> used,
+                                               std::span<const std::pair<std::size_t, std::size_t>> shares,
+                                               Problems& problems) const;
 
-    /// The column with this name in the header, with or without its unit.
+    /// The one column with this name in the header, with or without its unit.
     [[nodiscard]] std::optional<std::size_t> named(std::string_view name) const;
-    /// "no column 'x': did you mean 'y'? (columns here: y, z)"
+    /// "no column 'x': did you mean 'y'? (columns here: y, z)", or that there are several.
     [[nodiscard]] std::string no_column(std::string_view name) const;
     /// Adds a problem for each column that might have been meant for a quantity, by a name that is near to its or by a
     /// known name with a unit of another dimension.
@@ -69,11 +75,19 @@ private:
     [[nodiscard]] static Head head_of(std::string_view text);
     [[nodiscard]] const std::string& row_unit(std::size_t column) const;
     [[nodiscard]] std::optional<std::size_t> known(std::string_view name) const;
-    void take_row_of_units();
+    [[nodiscard]] static std::vector<std::string> units_of(const Cells& cells);
+    void take_row_of_units(TableText& table);
     void choose(std::size_t sought, std::string_view text, Problems& problems);
     void find_by_name(std::size_t column);
     [[nodiscard]] bool has_dimension_of(const Sought& sought, std::string_view unit) const;
-    [[nodiscard]] std::string suffix_unit(std::string_view name, const Sought& sought) const;
+    /// A quantity that a name stands for, with the unit in the name.
+    struct Named {
+        std::size_t sought;
+        std::string unit;
+    };
+    [[nodiscard]] std::optional<Named> named_quantity(std::string_view name) const;
+    [[nodiscard]] std::string unit_within(std::string_view name, const Sought& sought) const;
+    [[nodiscard]] std::vector<std::size_t> all_named(std::string_view name) const;
     void convert(FoundColumn& found, Problems& problems) const;
 
     const TableText& table_;

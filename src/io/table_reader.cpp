@@ -33,6 +33,25 @@ std::string first_of(const List& list, std::size_t most = 10) {
     return text;
 }
 
+/// A cell of a column with words, as the user writes it: 1 is 1.0.
+bool same_value(std::string_view a, std::string_view b) {
+    const auto first = plain_number(a), second = plain_number(b);
+    return a == b || (first && second && *first == *second);
+}
+
+/// "mm/s", "[mm/s]" or "speed [mm/s]" where a number should stand.
+bool is_unit(std::string_view cell, const Sought& sought) {
+    if (const std::size_t bracket = cell.find_first_of("[("); bracket != std::string_view::npos)
+        cell = trimmed(cell.substr(bracket), " \t[]()");
+    if (cell.empty() || is_gap(cell) || is_number(cell)) return false;
+    try {
+        const Dimension dimension = parse_unit(cell).dimension;
+        return dimension == parse_unit(sought.unit).dimension || dimension != Dimension{};
+    } catch (const InvalidInput&) {
+        return false;
+    }
+}
+
 }  // namespace
 
 TableReader::TableReader(std::string text, std::string name, std::vector<Sought> sought, const TableInput& input,
@@ -57,13 +76,15 @@ void TableReader::pick_rows() {
             problems_.add(table_.header.front().at(), columns_->no_column(column));
             problems_.throw_if_any();
         }
+        constexpr std::size_t most = 50;  // values that are told
         std::vector<std::string> values;
         std::vector<Cells> picked;
         for (Cells& row : table_.rows) {
             if (*place >= row.size()) continue;
-            const std::string value(row[*place].text);
-            if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
-            if (value == wanted) picked.push_back(std::move(row));
+            const std::string_view value = row[*place].text;
+            if (values.size() < most && std::find(values.begin(), values.end(), value) == values.end())
+                values.emplace_back(value);
+            if (same_value(value, wanted)) picked.push_back(std::move(row));
         }
         if (picked.empty()) {
             problems_.add(table_.header[*place].at(),
@@ -78,35 +99,44 @@ void TableReader::pick_rows() {
 void TableReader::refuse_header(const std::string& message) {
     columns_->say_what_was_meant(problems_);
     std::vector<std::string> names;
-    for (const Cell& cell : table_.header) names.push_back(fmt::format("'{}'", cell.text));
+    for (const Cell& cell : table_.header) names.push_back(fmt::format("'{}'", shown(cell.text)));
     problems_.add(table_.header.front().at(), fmt::format("{} (columns here: {})", message, first_of(names, 20)));
     problems_.throw_if_any();
     std::abort();  // not reached: there is one
 }
 
 /// `allowed` says what the cell should be where it is no number.
-std::optional<double> TableReader::number(const Cell& cell, std::string& allowed) {
+std::optional<double> TableReader::number(const Cell& cell, Style& style, std::string& allowed) {
     std::string text(cell.text);
     if (constexpr std::string_view minus = "\u2212"; text.starts_with(minus)) text.replace(0, minus.size(), "-");
     const auto commas = std::count(text.begin(), text.end(), ',');
     const auto points = std::count(text.begin(), text.end(), '.');
     allowed = "a finite number";
-    if (commas + points > 1) {
+    const bool gaps = text.find_first_of(" '") != std::string::npos && text.find_first_of("0123456789") == 0;
+    if (commas + points > 1 || gaps) {
         allowed += ", without separators of thousands";
         return std::nullopt;
     }
     if (commas == 1) text[text.find(',')] = '.';
     const std::optional<double> value = plain_number(text);
     if (!value || !std::isfinite(*value)) return std::nullopt;
-    const bool grouped = commas == 1 && text.size() - text.find('.') == 4 && text.find('e') == std::string::npos;
-    if (commas == 1 && !grouped) commas_are_decimal_ = true;
-    int& here = commas == 1 ? decimal_comma_ : decimal_point_;
+    if (commas + points == 0) {
+        style.largest_whole = std::max(style.largest_whole, std::abs(*value));
+        return value;
+    }
     const int other = commas == 1 ? decimal_point_ : decimal_comma_;
-    if (commas + points == 1 && here == 0) here = cell.line;
-    if (commas + points == 1 && other != 0) {
+    if (other != 0) {
         allowed = fmt::format("a number with a decimal {}, as in line {}", commas == 1 ? "point" : "comma", other);
         return std::nullopt;
     }
+    int& here = commas == 1 ? decimal_comma_ : decimal_point_;
+    if (here == 0) here = cell.line;
+    const std::size_t point = text.find('.');
+    const bool triple =
+        text.size() - point == 4 && text.find_first_of("eE") == std::string::npos && std::abs(*value) >= 1;
+    style.only_triples = style.only_triples && triple;
+    style.separated = true;
+    style.commas = commas == 1;
     return value;
 }
 
@@ -126,7 +156,7 @@ std::vector<TableReader::Fault> TableReader::read_row(const Cells& row, std::spa
         const Sought& sought = sought_[columns[i].sought];
         const Cell& cell = row[columns[i].column];
         std::string allowed;
-        const auto read = number(cell, allowed);
+        const auto read = number(cell, styles_[columns[i].column], allowed);
         const double value = read ? converted(*read, columns[i]) : 0;
         if (read && !sought.range.contains(value)) {
             allowed = sought.range.bounded() ? sought.range.words(std::string(sought.unit)) : "a finite number";
@@ -138,7 +168,10 @@ std::vector<TableReader::Fault> TableReader::read_row(const Cells& row, std::spa
             values.push_back(value);
             continue;
         }
-        faults.push_back({cell.at(), fmt::format("{} is '{}'; allowed is {}", sought.name, cell.text, allowed)});
+        const bool unit = !read && is_unit(cell.text, sought);
+        if (unit) allowed += "; units stand in the header, or in a row right below it";
+        faults.push_back(
+            {cell.at(), fmt::format("{} is '{}'; allowed is {}", sought.name, shown(cell.text), allowed), unit});
     }
     if (!faults.empty() || !check) return faults;
     if (const auto wrong = check(values)) faults.push_back({row[columns.front().column].at(), *wrong});
@@ -146,14 +179,16 @@ std::vector<TableReader::Fault> TableReader::read_row(const Cells& row, std::spa
 }
 
 std::vector<std::vector<double>> TableReader::read(std::span<const std::size_t> used, const RowCheck& check) {
-    const std::vector<FoundColumn> columns = columns_->use(used, problems_);
+    const std::vector<FoundColumn> columns = columns_->use(used, shares_, problems_);
     if (problems_.empty() && table_.rows.empty()) problems_.add(table_.end, "there are no rows of data");
     problems_.throw_if_any();
     note_columns(columns);
+    styles_.resize(table_.header.size());
 
     std::vector<std::vector<double>> values(columns.size());
     std::vector<double> row_values, before;
     std::vector<int> bad;
+    bool unit = false;
     for (const Cells& row : table_.rows) {
         const std::vector<Fault> faults = read_row(row, columns, before, check, row_values);
         if (faults.empty()) {
@@ -162,13 +197,18 @@ std::vector<std::vector<double>> TableReader::read(std::span<const std::size_t> 
             continue;
         }
         bad.push_back(row.front().line);
-        for (const Fault& fault : faults) problems_.add(fault.at, fault.message);
+        for (const Fault& fault : faults) {
+            problems_.add(fault.at, fault.message);
+            unit = unit || fault.is_unit;
+        }
     }
-    if (!bad.empty() && (!input_.skip_bad_rows || bad.size() == table_.rows.size())) {
+    const bool must_stay = unit || !rows_stay_.empty() || bad.size() == table_.rows.size();
+    if (!bad.empty() && (!input_.skip_bad_rows || must_stay)) {
+        if (input_.skip_bad_rows && !rows_stay_.empty()) problems_.add(table_.end, rows_stay_);
         try {
             problems_.throw_if_any();
         } catch (const ScenarioError& error) {
-            if (bad.size() == table_.rows.size()) throw;  // nothing would be left
+            if (must_stay) throw;
             throw BadRows(error);
         }
     }
@@ -187,7 +227,8 @@ std::string TableReader::values_of(std::size_t column) const {
     constexpr std::size_t most = 10;
     std::vector<std::string> values;
     for (const Cells& row : table_.rows) {
-        if (column >= row.size() || is_number_or_gap(row[column].text) || values.size() > most) return "";
+        if (column >= row.size() || is_number(row[column].text) || is_gap(row[column].text) || values.size() > most)
+            return "";
         const std::string value(row[column].text);
         if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
     }
@@ -200,22 +241,34 @@ void TableReader::note_columns(std::span<const FoundColumn> columns) {
     std::string renamed;
     std::vector<std::string> unused;
     for (std::size_t column = 0; column < table_.header.size(); ++column) {
+        const std::string_view text = table_.header[column].text;
         const auto holds = [&](const FoundColumn& one) { return one.column == column; };
         const auto found = std::find_if(columns.begin(), columns.end(), holds);
-        const std::string text(table_.header[column].text);
         if (found == columns.end()) {
-            if (!text.empty() && !picked_by(column)) unused.push_back(text + values_of(column));
+            if (!text.empty() && !picked_by(column)) unused.push_back(shown(text) + values_of(column));
             continue;
         }
-        const Sought& sought = sought_[found->sought];
         // A name of its own, with its unit in brackets, says it all.
-        if (text.starts_with(sought.name) && (text.size() == sought.name.size() || text.ends_with(']'))) continue;
+        const Sought& sought = sought_[found->sought];
         const std::string_view unit = found->unit.empty() ? sought.unit : std::string_view(found->unit);
-        renamed += fmt::format("{}{}{} from '{}'", renamed.empty() ? "" : ", ", sought.name,
-                               unit == "1" || unit == "-" ? "" : fmt::format(" in {}", unit), text);
+        if (text == sought.name || text == fmt::format("{} [{}]", sought.name, unit)) continue;
+        renamed += fmt::format("{}{}{} from '{}'{}", renamed.empty() ? "" : ", ", sought.name,
+                               unit == "1" || unit == "-" ? "" : fmt::format(" in {}", unit), shown(text),
+                               found->sign < 0 ? " with its sign turned" : "");
     }
     if (!renamed.empty()) remarks_.notes.push_back(fmt::format("Read: {}.", renamed));
     if (!unused.empty()) remarks_.notes.push_back(fmt::format("Columns that are not used: {}.", first_of(unused, 20)));
+    if (!table_.commented_rows.empty()) {
+        remarks_.notes.push_back(fmt::format("Passed over as comments, though they look like rows: line{} {}.",
+                                             table_.commented_rows.size() == 1 ? "" : "s",
+                                             first_of(table_.commented_rows)));
+    }
+    if (table_.longer_rows && table_.separator == Separator::comma) {
+        remarks_.warnings.push_back(fmt::format(
+            "{}: rows have an empty cell more than the header; if their numbers have decimal commas, they were split "
+            "wrongly: separate the cells by semicolons then",
+            name_));
+    }
 }
 
 void TableReader::note_left_out(const std::vector<int>& lines, std::size_t rows) {
@@ -224,24 +277,38 @@ void TableReader::note_left_out(const std::vector<int>& lines, std::size_t rows)
                                          rows, lines.size() == 1 ? "" : "s", first_of(lines)));
 }
 
+void TableReader::warn_of_style(const FoundColumn& column) {
+    const Style& style = styles_[column.column];
+    // Three digits behind each point are usual; beside whole numbers above them they are not.
+    constexpr double hundreds = 100;
+    const bool doubtful = style.separated && style.only_triples && (style.commas || style.largest_whole >= hundreds);
+    if (!doubtful) return;
+    remarks_.warnings.push_back(fmt::format(
+        "{}: every {} in column '{}' has three digits behind it; it is read as decimal, 1{}200 as 1.2; if it separates "
+        "thousands, remove it",
+        name_, style.commas ? "comma" : "point", shown(table_.header[column.column].text), style.commas ? ',' : '.'));
+}
+
 void TableReader::warn_of_numbers(std::span<const FoundColumn> columns,
                                   const std::vector<std::vector<double>>& values) {
     if (decimal_comma_ != 0) remarks_.notes.emplace_back("Decimal commas.");
-    if (decimal_comma_ != 0 && !commas_are_decimal_) {
-        remarks_.warnings.push_back(fmt::format(
-            "{}: every comma in a number has three digits behind it; they are read as decimal commas, 1,200 as 1.2; if "
-            "they separate thousands, remove them",
-            name_));
-    }
     for (std::size_t i = 0; i < columns.size(); ++i) {
         const Sought& sought = sought_[columns[i].sought];
+        warn_of_style(columns[i]);
         double largest = 0;
         for (const double value : values[i]) largest = std::max(largest, std::abs(value));
-        if (!columns[i].unit.empty() || !(largest > sought.plausible)) continue;
+        if (!columns[i].unit.empty()) continue;
+        if (largest < sought.hardly && values[i].size() > 1) {
+            remarks_.warnings.push_back(
+                fmt::format("{}: column '{}' has no unit, so it was read in {}, and goes to {:.4g} "
+                            "{} only; if that is not meant, write its unit into the header",
+                            name_, shown(table_.header[columns[i].column].text), sought.unit, largest, sought.unit));
+        }
+        if (!(largest > sought.plausible)) continue;
         remarks_.warnings.push_back(fmt::format(
             "{}: column '{}' has no unit, so it was read in {}, and goes to {:.4g} {}; if that is not meant, write its "
             "unit into the header: '{} [{}]'",
-            name_, table_.header[columns[i].column].text, sought.unit, largest, sought.unit, sought.name,
+            name_, shown(table_.header[columns[i].column].text), sought.unit, largest, sought.unit, sought.name,
             sought.unit == "m/s" ? "mm/s" : fmt::format("m{}", sought.unit)));
     }
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "footfall/io/table_input.hpp"
@@ -32,6 +33,12 @@ public:
     /// Says the unit of a quantity that was sought without one.
     void set_unit(std::size_t sought, std::string_view unit) { sought_[sought].unit = unit; }
 
+    /// A quantity without a unit has the one of another quantity.
+    void share_unit(std::size_t sought, std::size_t of) { shares_.emplace_back(sought, of); }
+
+    /// Bad rows are errors whatever the user says, for this reason.
+    void keep_all_rows(std::string reason) { rows_stay_ = std::move(reason); }
+
     /// Throws ScenarioError: what the header lacks, beside what might have been meant.
     [[noreturn]] void refuse_header(const std::string& message);
 
@@ -47,9 +54,17 @@ private:
     struct Fault {
         Position at;
         std::string message;
+        bool is_unit = false;  ///< a unit stands where a number should: such a row is never left out
+    };
+    /// How the numbers of a column are written.
+    struct Style {
+        bool commas = false;       ///< there is one
+        bool separated = false;    ///< there is a comma or a point
+        bool only_triples = true;  ///< all have three digits behind it, and none a zero before it
+        double largest_whole = 0;  ///< of the numbers without
     };
     void pick_rows();
-    [[nodiscard]] std::optional<double> number(const Cell& cell, std::string& allowed);
+    [[nodiscard]] std::optional<double> number(const Cell& cell, Style& style, std::string& allowed);
     [[nodiscard]] std::vector<Fault> read_row(const Cells& row, std::span<const FoundColumn> columns,
                                               std::span<const double> before, const RowCheck& check,
                                               std::vector<double>& values);
@@ -57,6 +72,7 @@ private:
     [[nodiscard]] std::string values_of(std::size_t column) const;
     void note_columns(std::span<const FoundColumn> columns);
     void note_left_out(const std::vector<int>& lines, std::size_t rows);
+    void warn_of_style(const FoundColumn& column);
     void warn_of_numbers(std::span<const FoundColumn> columns, const std::vector<std::vector<double>>& values);
 
     bool is_utf8_;
@@ -67,9 +83,11 @@ private:
     const TableInput& input_;
     TableText table_;
     std::unique_ptr<Columns> columns_;
+    std::vector<std::pair<std::size_t, std::size_t>> shares_;
     TableRemarks remarks_;
+    std::vector<Style> styles_;                  ///< of each column of the table
     int decimal_comma_ = 0, decimal_point_ = 0;  ///< the line where one was first seen
-    bool commas_are_decimal_ = false;            ///< one cannot be a separator of thousands
+    std::string rows_stay_;                      ///< why no row may be left out; empty: any may
 };
 
 }  // namespace footfall::io

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
@@ -24,33 +25,69 @@ struct Line {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/// What may stand before a quote that opens a cell.
-bool may_precede_cell(char c) { return is_blank(c) || c == ',' || c == ';'; }
-
-[[noreturn]] void refuse(const std::string& name, Position at, std::string message) {
+[[noreturn]] void refuse(const std::string& name, const Position& at, const std::string& message) {
     Problems problems(name);
-    problems.add(at, std::move(message));
+    problems.add(at, std::string_view(message));
     problems.throw_if_any();
     std::abort();  // not reached: there is one
 }
 
-/// The end of the cell that a quote at `place` opens: behind the quote that closes it. Nothing where none does.
-std::optional<std::size_t> end_of_quoted(std::string_view text, std::size_t place) {
+constexpr std::size_t none = std::string_view::npos;
+
+/// The end of the cell that a quote at `place` opens: behind the quote that closes it. `none` where none does.
+std::size_t end_of_quoted(std::string_view text, std::size_t place) {
     for (std::size_t i = place + 1; i < text.size(); ++i) {
         if (text[i] != '"') continue;
-        if (i + 1 < text.size() && text[i + 1] == '"') {
-            ++i;  // a doubled quote stands for one
-        } else {
-            return i + 1;
-        }
+        if (i + 1 == text.size() || text[i + 1] != '"') return i + 1;
+        ++i;  // a doubled quote stands for one
     }
-    return std::nullopt;
+    return none;
 }
 
-/// Lines with something in them that are no comments, and the last comment above the first of them.
+bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+
+/// What a spreadsheet puts in place of a number that it could not compute: "#DIV/0!", "#N/A", "#NV".
+bool is_error_word(std::string_view line) {
+    const std::string_view word = line.substr(0, line.find_first_of(" \t,;\r\n"));
+    const auto fits = [](char c) { return (c >= 'A' && c <= 'Z') || c == '/' || c == '0' || c == '!' || c == '?'; };
+    return word.size() > 2 && word.front() == '#' && std::all_of(word.begin() + 1, word.end(), fits);
+}
+
+bool is_comment(std::string_view line) {
+    line = trimmed(line);
+    return !line.empty() && (line.front() == '#' || line.front() == '%') && !is_error_word(line);
+}
+
+/// Where the line that begins at `begin` ends: at the first line end that is in no quoted cell.
+std::size_t end_of_line(std::string_view text, std::size_t begin, int number, const std::string& name) {
+    bool cell_begins = true, after_blank = false;
+    std::size_t i = begin;
+    while (i < text.size() && !is_line_end(text[i])) {
+        const char c = text[i];
+        if (c == '"' && (cell_begins || after_blank)) {
+            const std::size_t end = end_of_quoted(text, i);
+            if (end == none && cell_begins) {
+                refuse(name, Cell{{}, text.substr(begin, i - begin), number}.at(),
+                       "a quote (\") opens here and none closes it");
+            }
+            // Behind a blank inside a cell a quote may be the sign for inches.
+            const bool opens = cell_begins || text.substr(i, end - i).find_first_of("\r\n") == none;
+            if (end != none && opens) {
+                i = end;
+                cell_begins = after_blank = false;
+                continue;
+            }
+        }
+        after_blank = c == ' ';
+        if (c != ' ') cell_begins = c == ',' || c == ';' || c == '\t';
+        ++i;
+    }
+    return i;
+}
+
+/// Lines with something in them, and the comments among them.
 struct Lines {
-    std::vector<Line> lines;
-    std::optional<Line> comment;
+    std::vector<Line> lines, comments;
     Position end;
 };
 
@@ -58,37 +95,14 @@ Lines lines_of(std::string_view text, const std::string& name) {
     Lines all;
     int number = 1;
     for (std::size_t i = 0; i < text.size();) {
-        const std::size_t begin = i;
-        const int first = number;
-        bool cell_may_begin = true;
-        const std::size_t content = std::min(text.find_first_not_of(" \t", i), text.size());
-        const bool comment = content < text.size() && (text[content] == '#' || text[content] == '%');
-        while (i < text.size() && text[i] != '\n' && text[i] != '\r') {
-            if (text[i] == '"' && cell_may_begin && !comment) {
-                const auto end = end_of_quoted(text, i);
-                if (!end) {
-                    refuse(name, Cell{{}, text.substr(begin, i - begin), first}.at(),
-                           "a quote (\") opens here and none closes it");
-                }
-                number += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
-                                                      text.begin() + static_cast<std::ptrdiff_t>(*end), '\n'));
-                i = *end;
-                cell_may_begin = false;
-            } else {
-                cell_may_begin = may_precede_cell(text[i]);
-                ++i;
-            }
-        }
-        const Line line{text.substr(begin, i - begin), first};
-        if (i < text.size()) i += text.substr(i).starts_with("\r\n") ? 2 : 1;
+        const std::size_t plain_end = std::min(text.find_first_of("\r\n", i), text.size());
+        const bool comment = is_comment(text.substr(i, plain_end - i));
+        const std::size_t end = comment ? plain_end : end_of_line(text, i, number, name);
+        const Line line{text.substr(i, end - i), number};
         all.end = {number, 1};
-        ++number;
-        if (trimmed(line.text).empty()) continue;
-        if (!comment) {
-            all.lines.push_back(line);
-        } else if (all.lines.empty()) {
-            all.comment = line;
-        }
+        number += 1 + static_cast<int>(std::count(line.text.begin(), line.text.end(), '\n'));
+        i = end + (text.substr(end).starts_with("\r\n") ? 2 : 1);
+        if (!trimmed(line.text).empty()) (comment ? all.comments : all.lines).push_back(line);
     }
     return all;
 }
@@ -101,35 +115,21 @@ std::string_view name_of(Separator separator) {
     return names[static_cast<std::size_t>(separator)];
 }
 
-/// The length of the separator at `place`; 0 where there is none.
-std::size_t separator_at(std::string_view text, std::size_t place, Separator separator) {
-    const auto blanks = [&] {
-        std::size_t end = place;
-        while (end < text.size() && is_blank(text[end])) ++end;
-        return end - place;
-    };
+/// The character that is the separator; blanks are looked at apart.
+char mark_of(Separator separator) {
     switch (separator) {
         case Separator::tab:
-            return text[place] == '\t' ? 1 : 0;
+            return '\t';
         case Separator::semicolon:
-            return text[place] == ';' ? 1 : 0;
+            return ';';
         case Separator::comma:
-            return text[place] == ',' ? 1 : 0;
-        case Separator::wide_blank: {
-            const std::size_t width = blanks();
-            return width >= 2 ? width : 0;
-        }
-        case Separator::blank: {
-            // A unit in brackets belongs to the name before it: "force [N]".
-            const std::size_t width = blanks();
-            const std::size_t next = place + width;
-            const bool unit = next < text.size() && (text[next] == '[' || text[next] == '(');
-            return unit ? 0 : width;
-        }
+            return ',';
+        case Separator::wide_blank:
+        case Separator::blank:
         case Separator::none:
             break;
     }
-    return 0;
+    return '\0';
 }
 
 class Splitter {
@@ -141,6 +141,7 @@ public:
         std::string_view text = line.text;
         // Blanks at the ends separate nothing.
         const bool blank = separator == Separator::wide_blank || separator == Separator::blank;
+        const char mark = mark_of(separator);
         std::size_t begin = blank ? std::min(text.find_first_not_of(" \t"), text.size()) : 0;
         if (blank) text = text.substr(0, text.find_last_not_of(" \t") + 1);
         for (;;) {
@@ -150,14 +151,27 @@ public:
             while (end < text.size()) {
                 const char c = text[end];
                 if (c == '"' && trimmed(text.substr(begin, end - begin)).empty()) {
-                    end = end_of_quoted(text, end).value_or(text.size());
+                    end = std::min(end_of_quoted(text, end), text.size());
+                    continue;
+                }
+                if (blank && is_blank(c)) {
+                    // A blank inside a unit separates nothing, nor does one before it: "force [N]".
+                    const std::size_t next = std::min(text.find_first_not_of(" \t", end), text.size());
+                    const bool unit = next < text.size() && (text[next] == '[' || text[next] == '(');
+                    const bool wide_enough = separator == Separator::blank || next - end >= 2;
+                    if (brackets == 0 && wide_enough && !(unit && separator == Separator::blank)) {
+                        length = next - end;
+                        break;
+                    }
+                    end = next;
                     continue;
                 }
                 if (c == '[' || c == '(') ++brackets;
                 if ((c == ']' || c == ')') && brackets > 0) --brackets;
-                // A blank inside a unit separates nothing.
-                length = blank && brackets > 0 ? 0 : separator_at(text, end, separator);
-                if (length > 0) break;
+                if (c == mark) {
+                    length = 1;
+                    break;
+                }
                 ++end;
             }
             cells.push_back(cell(line, text, begin, end));
@@ -214,6 +228,9 @@ public:
             drop_empty_end(header, 1);
             const std::size_t width = header.size();
             if (width < 2) continue;
+            // "speed, restitution": the blank only stands beside another separator.
+            const bool blank = separator == Separator::wide_blank || separator == Separator::blank;
+            if (blank && (best == Separator::semicolon || best == Separator::comma)) continue;
             const auto fits = [&](const Line& line) {
                 Cells row = splitter_.split(line, separator);
                 drop_empty_end(row, width);
@@ -256,7 +273,32 @@ private:
 };
 
 /// "sep=;", with which a spreadsheet is told how to split a file.
-bool is_separator_line(std::string_view line) { return line.size() == 5 && line.starts_with("sep="); }
+bool is_separator_line(std::string_view line) {
+    line = trimmed(line, "\r\"");
+    return line.size() == 5 && (line.starts_with("sep=") || line.starts_with("SEP="));
+}
+
+Cells uncommented(Line line, Splitter& splitter, Separator separator) {
+    line.text.remove_prefix(line.text.find_first_of("#%") + 1);
+    return splitter.split(line, separator);
+}
+
+/// A comment right below the header may hold the units, and others may be rows that somebody has taken out.
+void look_at_comments(const std::vector<Line>& comments, Splitter& splitter, TableText& table) {
+    const int header = table.header.front().line;
+    const int first_row = table.rows.empty() ? table.end.line + 1 : table.rows.front().front().line;
+    for (const Line& comment : comments) {
+        if (comment.number < header) continue;
+        Cells cells = uncommented(comment, splitter, table.separator);
+        if (cells.size() != table.header.size()) continue;
+        const auto number = [](const Cell& cell) { return is_number(cell.text); };
+        if (std::any_of(cells.begin(), cells.end(), number)) {
+            table.commented_rows.push_back(comment.number);
+        } else if (comment.number < first_row) {
+            table.comment_below = std::move(cells);
+        }
+    }
+}
 
 }  // namespace
 
@@ -267,11 +309,17 @@ Position Cell::at() const {
     return {line + breaks, static_cast<int>(text::width(before.substr(start))) + 1};
 }
 
-bool is_number_or_gap(std::string_view cell) {
+bool is_number(std::string_view cell) {
+    std::string word(cell);
+    std::replace(word.begin(), word.end(), ',', '.');
+    const auto value = plain_number(word);
+    return value.has_value() && std::isfinite(*value);
+}
+
+bool is_gap(std::string_view cell) {
     std::string word;
-    for (const char c : cell) word += c == ',' ? '.' : static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    if (plain_number(word)) return true;
-    constexpr std::array gaps{"", "-", "--", "na", "n/a", "#n/a", "nan", "null", "none"};
+    for (const char c : cell) word += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    constexpr std::array gaps{"", "-", "--", "na", "n/a", "#n/a", "#nv", "n.a.", "nan", "null", "none", "inf", "-inf"};
     return std::find(gaps.begin(), gaps.end(), word) != gaps.end();
 }
 
@@ -283,13 +331,25 @@ std::string decoded(std::string text, const std::string& name) {
         const auto lines = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n');
         refuse(name, {static_cast<int>(lines) + 1, 1}, "this is no table of text: there is a zero byte in it");
     }
-    return is_utf8(text) ? std::move(text) : from_windows_1252(text);
+    if (!is_utf8(text)) text = from_windows_1252(text);
+    // Blanks that do not break a line are blanks.
+    std::string plain;
+    plain.reserve(text.size());
+    for (std::size_t i = 0; i < text.size();) {
+        const std::string_view rest = std::string_view(text).substr(i);
+        std::size_t size = 0;
+        for (const std::string_view blank : {"\u00a0", "\u202f", "\u2007"})
+            if (rest.starts_with(blank)) size = blank.size();
+        plain += size > 0 ? ' ' : text[i];
+        i += std::max(size, std::size_t{1});
+    }
+    return plain;
 }
 
 TableText split_table(std::string_view text, const std::string& name, std::string_view wanted) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the byte order mark of a spreadsheet
     Lines all = lines_of(text, name);
-    if (!all.lines.empty() && is_separator_line(trimmed(all.lines.front().text))) all.lines.erase(all.lines.begin());
+    if (!all.lines.empty() && is_separator_line(all.lines.front().text)) all.lines.erase(all.lines.begin());
     if (all.lines.empty())
         refuse(name, all.end, fmt::format("there is no header line that names the columns; {}", wanted));
 
@@ -299,23 +359,27 @@ TableText split_table(std::string_view text, const std::string& name, std::strin
     table.separator = Detector(all.lines, splitter).find(name);
     table.header = splitter.split(all.lines.front(), table.separator);
     drop_empty_end(table.header, 1);
+    const std::size_t width = table.header.size();
     for (std::size_t i = 1; i < all.lines.size(); ++i) {
         Cells row = splitter.split(all.lines[i], table.separator);
-        drop_empty_end(row, table.header.size());
-        if (row.size() > 1 && is_empty(row)) continue;  // nothing but separators
+        const std::size_t cells = row.size();
+        drop_empty_end(row, width);
+        if (cells == width + 1 && row.size() == width) table.longer_rows = true;
         table.rows.push_back(std::move(row));
     }
+    // Spreadsheets write rows of nothing but separators below the last one.
+    while (!table.rows.empty() && table.rows.back().size() > 1 && is_empty(table.rows.back())) table.rows.pop_back();
+    look_at_comments(all.comments, splitter, table);
 
-    const auto number = [](const Cell& cell) { return is_number_or_gap(cell.text); };
+    const auto number = [](const Cell& cell) { return is_number(cell.text) || is_gap(cell.text); };
     if (std::all_of(table.header.begin(), table.header.end(), number)) {
         // numpy.savetxt and others write the header as a comment.
         std::string where = "write one above this line, such as \"speed [m/s],restitution\"";
-        if (all.comment) {
-            Line comment = *all.comment;
-            comment.text.remove_prefix(comment.text.find_first_of("#%") + 1);
-            if (splitter.split(comment, table.separator).size() == table.header.size())
+        const int first_line = table.header.front().line;
+        for (const Line& comment : all.comments) {
+            if (comment.number < first_line && uncommented(comment, splitter, table.separator).size() == width)
                 where = fmt::format("line {} looks like one: remove the '{}' before it", comment.number,
-                                    trimmed(all.comment->text).front());
+                                    trimmed(comment.text).front());
         }
         refuse(name, table.header.front().at(),
                fmt::format("there is no header line that names the columns: {}; {}", where, wanted));

@@ -73,8 +73,16 @@ TEST(TableReader, RefusesNumbersThatCanBeReadInTwoWays) {
                    "lab.csv:3:1: speed is '0,3'; allowed is a number with a decimal point, as in line 2");
     expect_refused("speed,restitution\n0,1,0,779\n", "decimal commas need semicolons");
     const FitData grouped = parse_fit_data("indentation [um];force [N]\n1,200;2,400\n", "lab.csv");
-    ASSERT_EQ(grouped.remarks.warnings.size(), 1U);
-    EXPECT_TRUE(contains(grouped.remarks.warnings[0], "three digits"));
+    ASSERT_EQ(grouped.remarks.warnings.size(), 2U);
+    EXPECT_TRUE(contains(grouped.remarks.warnings[0], "every comma in column 'indentation [um]' has three digits"));
+    const FitData points = parse_fit_data("force [N];depth [um]\n980;1\n1.234;2\n12.345;3\n", "lab.csv");
+    ASSERT_EQ(points.remarks.warnings.size(), 1U);
+    EXPECT_TRUE(contains(points.remarks.warnings[0], "every point in column 'force [N]'"));
+    EXPECT_TRUE(parse_fit_data("force [N];depth [um]\n9;1\n1.234;2\n", "lab.csv").remarks.warnings.empty());
+    // One stray sign does not turn the others into errors.
+    const std::string stray = error_of("speed;restitution\n1,5;0,8\n2.5;0,7\n3,5;0,6\n");
+    EXPECT_EQ(stray, "lab.csv:3:1: speed is '2.5'; allowed is a number with a decimal comma, as in line 2");
+    expect_refused("speed;restitution\n1 234,5;0,8\n", "without separators of thousands");
 }
 
 TEST(TableReader, PassesOverWhatIsAroundTheTable) {
@@ -202,6 +210,89 @@ TEST(TableReader, LeavesOutBadRowsWhereItIsAskedToAndCountsThem) {
 
 TEST(TableReader, CellsOfOtherColumnsMayHoldAnything) {
     expect_curve("speed,trial,restitution\n0.1,NaN,0.779\n1.25,,0.66\n");
+}
+
+TEST(TableReader, LosesNoRowInSilence) {
+    // What a spreadsheet could not compute is a bad cell, not a comment.
+    for (const char* word : {"#DIV/0!", "#N/A", "#NV", "#VALUE!", "#WERT!"}) {
+        const std::string table = std::string("v;e\n1;0,8\n") + word + ";0,8\n3;0,7\n";
+        expect_refused(table, "lab.csv:3:1: speed is '#");
+    }
+    const std::string bounces = "t_bounce;n\n0,1;1\n#NV;2\n1,5;3\n1,9;4\n";
+    FitInput skip;
+    skip.skip_bad_rows = true;
+    expect_refused(bounces, "two flights would be one", skip);
+    expect_refused("bounce,t_bounce\n1,0.1\n,\n3,1.5\n4,1.9\n", "lab.csv:3:2: bounce_time is ''");
+    // Rows of separators below the last one are nothing.
+    expect_curve("v,e\n0.1,0.779\n1.25,0.66\n,\n,\n");
+    // A row that somebody commented out is told.
+    EXPECT_EQ(parse_fit_data("v,e\n0.1,0.779\n#0.5,0.9\n1.25,0.66\n", "lab.csv").remarks.notes.back(),
+              "Passed over as comments, though they look like rows: line 3.");
+}
+
+TEST(TableReader, NeverLeavesOutUnits) {
+    FitInput skip;
+    skip.skip_bad_rows = true;
+    expect_curve("speed,restitution\nmm/s,none\n100,0.779\n1250,0.66\n", skip);
+    expect_curve("speed,restitution\n# mm/s,-\n100,0.779\n1250,0.66\n");
+    expect_refused("speed,e\nrun1,run1\nmm/s,-\n100,0.8\n", "units stand in the header", skip);
+    expect_refused("v,e\n1,0.8\nv [mm/s],e\n300,0.6\n", "units stand in the header", skip);
+}
+
+TEST(TableReader, ReadsAUnitInTheNameOfAColumnThatIsChosen) {
+    for (const char* name : {"U / mm/s", "U in mm/s", "U mm/s", "U_mm_s", "U_mm_s_raw", "U [mm/s]", "U (mm/s)"}) {
+        FitInput input;
+        input.columns = {{"speed", name}};
+        expect_curve(std::string(name) + ";restitution\n100;0.779\n1250;0.66\n", input);
+    }
+    FitInput input;
+    input.columns = {{"force", "Force (filtered) [kN]"}};
+    EXPECT_EQ(parse_fit_data("time [ms],Force (filtered)\n1,2\n", "lab.csv", input).y[0], 2000);
+    input.columns = {{"speed", "x"}, {"restitution", "x"}};
+    expect_refused("x,y\n1,1\n", "'x' is chosen for two quantities", input);
+}
+
+TEST(TableReader, RefusesUnitsThatContradictEachOther) {
+    expect_refused("time_us [ms],force\n1,1\n", "'time_us [ms]': is it in us or in ms?");
+    expect_refused("time_us,force\nms,N\n1,1\n", "'time_us': is it in us or in ms?");
+    FitInput input;
+    input.columns = {{"speed", "U_mm_s [m/s]"}};
+    expect_refused("U_mm_s,e\n1,0.5\n", "has the unit mm/s, but U_mm_s [m/s] asks for m/s", input);
+}
+
+TEST(TableReader, RefusesAChoiceBetweenColumnsOfOneName) {
+    FitInput input;
+    input.columns = {{"speed", "x"}};
+    expect_refused("e,x,x\n0.5,1,2\n", "there are 2 columns 'x'", input);
+    input.columns = {{"force", "force"}};
+    expect_refused("time,force [N],force [kN]\n1,1,1\n", "there are 2 columns 'force'", input);
+    input.columns = {{"force", "force [kN]"}};
+    EXPECT_EQ(parse_fit_data("time,force [N],force [kN]\n1,1,2\n", "lab.csv", input).y[0], 2000);
+}
+
+TEST(TableReader, TakesNamesThatMeanTwoThingsForNeither) {
+    // Inches or coming in, a duration of contact or the time of an impact, the number of a drop.
+    expect_refused("h_in,h_out\n40,25\n", "do not fit together");
+    expect_refused("drop,COR\n1,0.8\n", "do not fit together");
+    expect_refused("impact_time [ms],impact_velocity [m/s]\n1,4\n", "do not fit together");
+    expect_refused("bounce_time,v\n1,4\n2,3\n", "do not fit together");
+}
+
+TEST(TableReader, GivesAStandardDeviationTheUnitOfItsColumn) {
+    EXPECT_EQ(parse_fit_data("v,e [%],sd\n1,80,2\n", "lab.csv").sigma[0], 0.02);
+    EXPECT_EQ(parse_fit_data("t [ms],F [kN],sd\n1,80,2\n", "lab.csv").sigma[0], 2000);
+    EXPECT_EQ(parse_fit_data("t [ms],F [kN],sd [N]\n1,80,2\n", "lab.csv").sigma[0], 2);
+}
+
+TEST(TableReader, IsQuickWithWhatIsVeryLong) {
+    const std::string blanks(300000, ' '), many(200000, '_');
+    expect_refused("speed" + blanks + "[m/s] e\n1 x\n", "restitution is 'x'");
+    expect_refused("a" + many + "b,e\n1,1\n", "do not fit together");
+    std::string table = "id,v,e\n";
+    for (int i = 0; i < 100000; ++i) table += std::to_string(i) + ",1,0.5\n";
+    FitInput input;
+    input.where = {{"id", "77"}};
+    EXPECT_EQ(parse_fit_data(table, "lab.csv", input).x.size(), 1U);
 }
 
 TEST(TableReader, PicksRowsOfALongTable) {
