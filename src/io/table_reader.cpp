@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
@@ -71,26 +72,22 @@ TableReader::TableReader(std::string text, std::string name, std::vector<Sought>
 
 void TableReader::pick_rows() {
     for (const auto& [column, wanted] : input_.where) {
-        const auto place = columns_->named(column);
-        if (!place) {
-            problems_.add(table_.header.front().at(), columns_->no_column(column));
-            problems_.throw_if_any();
-        }
+        const auto found = columns_->named(column);
+        if (!found) refuse(table_.header.front(), columns_->no_column(column));
+        const std::size_t place = *found;
         constexpr std::size_t most = 50;  // values that are told
         std::vector<std::string> values;
         std::vector<Cells> picked;
         for (Cells& row : table_.rows) {
-            if (*place >= row.size()) continue;
-            const std::string_view value = row[*place].text;
+            if (place >= row.size()) continue;
+            const std::string_view value = row[place].text;
             if (values.size() < most && std::find(values.begin(), values.end(), value) == values.end())
                 values.emplace_back(value);
             if (same_value(value, wanted)) picked.push_back(std::move(row));
         }
         if (picked.empty()) {
-            problems_.add(table_.header[*place].at(),
-                          fmt::format("no row has '{}' in column '{}'{} (it has {})", wanted, column,
-                                      did_you_mean(wanted, values), first_of(values)));
-            problems_.throw_if_any();
+            refuse(table_.header[place], fmt::format("no row has '{}' in column '{}'{} (it has {})", wanted, column,
+                                                     did_you_mean(wanted, values), first_of(values)));
         }
         table_.rows = std::move(picked);
     }
@@ -100,7 +97,11 @@ void TableReader::refuse_header(const std::string& message) {
     columns_->say_what_was_meant(problems_);
     std::vector<std::string> names;
     for (const Cell& cell : table_.header) names.push_back(fmt::format("'{}'", shown(cell.text)));
-    problems_.add(table_.header.front().at(), fmt::format("{} (columns here: {})", message, first_of(names, 20)));
+    refuse(table_.header.front(), fmt::format("{} (columns here: {})", message, first_of(names, 20)));
+}
+
+void TableReader::refuse(const Cell& cell, const std::string& message) {
+    problems_.add(cell.at(), std::string_view(message));
     problems_.throw_if_any();
     std::abort();  // not reached: there is one
 }

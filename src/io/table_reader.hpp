@@ -63,6 +63,7 @@ private:
         bool only_triples = true;  ///< all have three digits behind it, and none a zero before it
         double largest_whole = 0;  ///< of the numbers without
     };
+    [[noreturn]] void refuse(const Cell& cell, const std::string& message);
     void pick_rows();
     [[nodiscard]] std::optional<double> number(const Cell& cell, Style& style, std::string& allowed);
     [[nodiscard]] std::vector<Fault> read_row(const Cells& row, std::span<const FoundColumn> columns,
