@@ -68,15 +68,15 @@ int drive_rig(const DriveArguments& arguments) {
     work_on(arguments.rig);
     const RigFile file = load(arguments);
     if (arguments.print) {
-        print(file.text);
+        print_as_it_is(file.text);
         return ExitCode::success;
     }
-    if (arguments.csv) {
-        std::vector<Place> inputs{{"RIG", arguments.rig}};
-        for (const std::filesystem::path& table : file.tables) inputs.push_back({"a table of the rig", table});
-        keep_apart(inputs, {{"--csv", *arguments.csv}});
-        check_csv_file(*arguments.csv);
-    }
+    std::vector<Place> inputs, outputs;
+    if (!shipped_text(FileKind::rig, arguments.rig)) inputs.push_back({"RIG", arguments.rig});
+    for (const std::filesystem::path& table : file.tables) inputs.push_back({"a table of the rig", table});
+    if (arguments.csv) outputs.push_back({"--csv", *arguments.csv});
+    keep_apart(inputs, outputs);
+    if (arguments.csv) check_csv_file(*arguments.csv);
     std::vector<RigRun> runs = laws_to_drive(arguments, file.laws);
     for (RigRun& run : runs) {
         const std::string where = fmt::format("{}: {}", arguments.rig.string(), run.named.name);

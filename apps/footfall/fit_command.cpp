@@ -83,10 +83,10 @@ FitStudy study_of(const FitArguments& arguments) {
 
 int run_fit(const FitArguments& arguments) {
     work_on(arguments.data);
-    if (arguments.csv) {
-        keep_apart({{"DATA", arguments.data}}, {{"--csv", *arguments.csv}});
-        check_csv_file(*arguments.csv);
-    }
+    std::vector<Place> outputs;
+    if (arguments.csv) outputs.push_back({"--csv", *arguments.csv});
+    keep_apart({{"DATA", arguments.data}}, outputs);
+    if (arguments.csv) check_csv_file(*arguments.csv);
     const FitStudyResult result = fit(study_of(arguments));
     std::vector<std::filesystem::path> written;
     if (arguments.csv) {

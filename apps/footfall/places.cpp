@@ -4,6 +4,8 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "footfall/io/printable.hpp"
 #include "footfall/math/error.hpp"
@@ -30,6 +32,19 @@ std::string names(const Place& a, const Place& b) {
     return one == other ? one : fmt::format("{} and {}", one, other);
 }
 
+bool is_link(const fs::path& path) {
+    std::error_code error;
+    return fs::is_symlink(fs::symlink_status(path, error));
+}
+
+/// The path is the file that standard output goes to.
+bool is_standard_output(const fs::path& path) {
+    struct stat file {
+    }, output{};
+    return ::stat(path.c_str(), &file) == 0 && ::fstat(STDOUT_FILENO, &output) == 0 && S_ISREG(output.st_mode) &&
+           file.st_dev == output.st_dev && file.st_ino == output.st_ino;
+}
+
 }  // namespace
 
 std::vector<Place> table_places(const std::string& option, const fs::path& folder) {
@@ -39,6 +54,13 @@ std::vector<Place> table_places(const std::string& option, const fs::path& folde
 }
 
 void keep_apart(const std::vector<Place>& inputs, const std::vector<Place>& outputs) {
+    for (const std::vector<Place>* places : {&inputs, &outputs}) {
+        for (const Place& place : *places) {
+            if (!is_standard_output(place.path)) continue;
+            throw InvalidInput(fmt::format("standard output goes to {}, which is {}: give it another file",
+                                           printable(place.path.native()), place.option));
+        }
+    }
     for (std::size_t i = 0; i < outputs.size(); ++i) {
         const Place& output = outputs[i];
         for (const Place& input : inputs) {
@@ -47,7 +69,10 @@ void keep_apart(const std::vector<Place>& inputs, const std::vector<Place>& outp
                                            output.option, input.option, names(output, input)));
         }
         for (std::size_t j = 0; j < i; ++j) {
-            if (output.option == outputs[j].option || !same_place(output.path, outputs[j].path)) continue;
+            // Tables of one folder are one file only where a link makes them so; a hard link is replaced by a file.
+            const bool linked = is_link(output.path) || is_link(outputs[j].path);
+            if (output.option == outputs[j].option && !linked) continue;
+            if (!same_place(output.path, outputs[j].path)) continue;
             throw InvalidInput(fmt::format("{} and {} are the same file: {}; give each a name of its own",
                                            outputs[j].option, output.option, names(outputs[j], output)));
         }

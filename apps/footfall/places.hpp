@@ -16,8 +16,8 @@ struct Place {
 /// The places that `footfall run --csv DIR` writes: the folder and its three tables.
 [[nodiscard]] std::vector<Place> table_places(const std::string& option, const std::filesystem::path& folder);
 
-/// Throws InvalidInput where an output is an input, or two outputs are one file, whatever the names and links that lead
-/// there. Ask before anything runs.
+/// Throws InvalidInput where an output is an input, two outputs are one file, or standard output goes to one of them,
+/// whatever the names and links that lead there. Ask before anything runs.
 void keep_apart(const std::vector<Place>& inputs, const std::vector<Place>& outputs);
 
 }  // namespace footfall::cli

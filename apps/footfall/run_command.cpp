@@ -47,14 +47,16 @@ Scenario load(const RunArguments& arguments) {
 int run_scenario(const RunArguments& arguments) {
     Scenario scenario = load(arguments);
     if (arguments.print) {
-        print(scenario.text);
+        print_as_it_is(scenario.text);
         return ExitCode::success;
     }
     work_on(arguments.scenario);
     std::vector<Place> outputs;
     if (arguments.csv_directory) outputs = table_places("--csv", *arguments.csv_directory);
     if (arguments.netcdf) outputs.push_back({"--output", *arguments.netcdf});
-    keep_apart({{"SCENARIO", arguments.scenario}}, outputs);
+    std::vector<Place> inputs;
+    if (!shipped_text(FileKind::scenario, arguments.scenario)) inputs.push_back({"SCENARIO", arguments.scenario});
+    keep_apart(inputs, outputs);
 
     // A place that cannot be written is better known before a long run than after it.
     if (arguments.netcdf) check_netcdf_file(*arguments.netcdf);

@@ -82,8 +82,10 @@ void open_standard_streams() {
     }
 }
 
-void print(std::string_view text) {
-    const int error = write_all(STDOUT_FILENO, printable_lines(text));
+namespace {
+
+void put(std::string_view text) {
+    const int error = write_all(STDOUT_FILENO, text);
     if (error == 0) return;
     if (error == EPIPE && shared().broken_pipe_ends) {
         std::signal(SIGPIPE, SIG_DFL);
@@ -93,6 +95,17 @@ void print(std::string_view text) {
                                                                     : error == EPIPE
                                                                         ? "nobody reads it any more"
                                                                         : std::generic_category().message(error)));
+}
+
+}  // namespace
+
+void print(std::string_view text) { put(printable_lines(text)); }
+
+void print_as_it_is(std::string_view text) {
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+    if (::isatty(STDOUT_FILENO) == 1) return print(text);
+    put(text);
 }
 
 void print_page(std::string page, std::span<const std::filesystem::path> written) {

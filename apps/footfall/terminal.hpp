@@ -18,6 +18,9 @@ void open_standard_streams();
 /// written; where its reader has gone, the program ends as SIGPIPE ends one.
 void print(std::string_view text);
 
+/// Prints a file's text for another file, byte for byte but for a byte order mark; on a terminal as print does.
+void print_as_it_is(std::string_view text);
+
 /// Prints a page and, under it, the names of the files that were written, if there are any. Throws as print does.
 void print_page(std::string page, std::span<const std::filesystem::path> written);
 

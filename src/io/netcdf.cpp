@@ -142,10 +142,8 @@ private:
         // Positive ones are the system's.
         io::fail_to_write(file_.target(),
                           status > 0 ? std::generic_category().message(status)
-                                     : fmt::format("its content could not be put together as NetCDF-4 (error {} of the "
-                                                   "library that does so); most often the memory does not suffice: "
-                                                   "give [time] a larger sample",
-                                                   status));
+                                     : std::string("its content could not be put together as NetCDF-4; most often the "
+                                                   "memory does not suffice: give [time] a larger sample"));
     }
 
     io::Writer file_;

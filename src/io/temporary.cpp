@@ -197,6 +197,18 @@ bool discard_temporaries() {
     return registry().any_taken;
 }
 
+/// Removes from a folder of complete tables those that were written again in their place since.
+static void drop_overtaken(const fs::path& ready, const fs::path& folder) {
+    for (const char* table : run_tables) {
+        struct stat kept {
+        }, there{};
+        if (::lstat((ready / table).c_str(), &kept) != 0 || ::stat((folder / table).c_str(), &there) != 0) continue;
+        const bool newer = there.st_mtim.tv_sec != kept.st_mtim.tv_sec ? there.st_mtim.tv_sec > kept.st_mtim.tv_sec
+                                                                       : there.st_mtim.tv_nsec > kept.st_mtim.tv_nsec;
+        if (newer) ::unlink((ready / table).c_str());
+    }
+}
+
 void sweep(const fs::path& folder) noexcept {
     try {
         for (const std::string& name : names_in(folder)) {
@@ -210,6 +222,7 @@ void sweep(const fs::path& folder) noexcept {
             if (::fstat(descriptor, &entry) == 0 && S_ISREG(entry.st_mode)) {
                 ::unlink(left.c_str());
             } else if (ready) {
+                drop_overtaken(left, folder);
                 move_tables(left, folder);
             } else {
                 remove_folder(left);
@@ -224,10 +237,13 @@ int move_tables(const fs::path& ready, const fs::path& folder) {
     for (const char* table : run_tables) {
         struct stat entry {};
         if (::lstat((ready / table).c_str(), &entry) != 0) continue;  // it is in its place
-        std::error_code error;
         fs::path place = folder / table;
-        if (fs::is_symlink(place, error)) place = fs::canonical(place, error);
-        if (error) return error.value();
+        struct stat there {};
+        if (::lstat(place.c_str(), &there) == 0 && S_ISLNK(there.st_mode)) {
+            std::error_code error;
+            place = fs::canonical(place, error);
+            if (error) return error.value();
+        }
         const std::lock_guard hold(commit_mutex());
         if (const int failed = rename_entry(ready / table, place); failed != 0) return failed;
         registry().any_taken = true;

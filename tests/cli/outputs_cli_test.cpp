@@ -113,6 +113,65 @@ TEST_F(OutputsCli, TwoOutputsOnOnePlaceAreRefused) {
     EXPECT_EQ(folder.names(), (std::set<std::string>{"a.toml", "link", "real"}));
 }
 
+TEST_F(OutputsCli, TablesAreWrittenIntoFoldersThatCannotBeExchanged) {
+    folder.write("a.toml", ball);
+    const std::set<std::string> tables{"samples.csv", "events.csv", "impacts.csv"};
+    for (const int older : {0, 1, 2}) {
+        const fs::path place = folder / fmt::format("with-{}", older);
+        fs::create_directories(place / "sub");  // a folder in it forbids the exchange
+        auto name = tables.begin();
+        for (int i = 0; i < older; ++i) folder.write(fmt::format("with-{}/{}", older, *name++), "older");
+        const Result result = here(fmt::format("run a.toml -q --csv with-{}", older));
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        std::set<std::string> there;
+        for (const auto& entry : fs::directory_iterator(place)) there.insert(entry.path().filename().string());
+        std::set<std::string> wanted = tables;
+        wanted.insert("sub");
+        EXPECT_EQ(there, wanted);
+        for (const std::string& table : tables) EXPECT_NE(read_text(place / table), "older");
+    }
+    fs::create_directory(folder / "current");
+    EXPECT_EQ(here("--version", fmt::format("; cd current && '{}' run ../a.toml -q --csv .", FOOTFALL_CLI)).exit_code,
+              0);
+    EXPECT_TRUE(fs::exists(folder / "current" / "impacts.csv"));
+}
+
+TEST_F(OutputsCli, TablesThatAreOneFileByALinkAreRefused) {
+    folder.write("a.toml", ball);
+    fs::create_directory(folder / "tables");
+    folder.write("all.csv", "older");
+    fs::create_symlink("../all.csv", folder / "tables" / "samples.csv");
+    fs::create_symlink("../all.csv", folder / "tables" / "events.csv");
+    refuses("run a.toml --csv tables", "--csv", "the same file");
+    EXPECT_EQ(read_text(folder / "all.csv"), "older");
+}
+
+TEST_F(OutputsCli, StandardOutputIsNoInputAndNoOutput) {
+    folder.write("a.toml", ball);
+    Result result = here("--version", fmt::format("; '{}' run a.toml --json >> a.toml", FOOTFALL_CLI));
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(contains(result.err, "standard output goes to a.toml, which is SCENARIO")) << result.err;
+    EXPECT_EQ(read_text(folder / "a.toml"), ball);
+    result = here("--version", fmt::format("; '{}' run a.toml --json -o same.nc > same.nc", FOOTFALL_CLI));
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_TRUE(contains(result.err, "which is --output")) << result.err;
+}
+
+TEST_F(OutputsCli, AShippedNameIsNoInputThatAnOutputCouldOverwrite) {
+    EXPECT_EQ(here("run single-impact -q -o single-impact").exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder / "single-impact"));
+}
+
+TEST_F(OutputsCli, WhatIsPrintedForAFileIsTheFileByteForByte) {
+    std::string text = ball;
+    text.replace(text.find("sample"), 0, "\t");
+    text.replace(text.find("[solver]"), 0, "# \xE2\x80\xAE turned\r\n");
+    folder.write("a.toml", "\xEF\xBB\xBF" + text);
+    const Result result = here("run a.toml --print");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, text);
+}
+
 TEST_F(OutputsCli, EveryCommandAsksWhetherItsOutputCanBeWrittenBeforeItRuns) {
     folder.write("d.csv", bounces);
     for (const std::string& words :

@@ -2,6 +2,7 @@
 #include "io/atomic_file.hpp"
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 
 #include <fcntl.h>
@@ -213,6 +214,24 @@ TEST_F(AtomicFiles, TablesOfAProcessThatWasKilledWhileMovingThemAreAllMovedByThe
     EXPECT_EQ(read_text(tables / "events.csv"), "older");
     write_csv(tables / "other.csv", rows);
     for (const char* name : io::run_tables) EXPECT_EQ(read_text(tables / name), "new") << name;
+    EXPECT_EQ(std::distance(fs::directory_iterator(tables), fs::directory_iterator()), 5);
+}
+
+TEST_F(AtomicFiles, TablesOfAProcessThatWasKilledNeverReplaceNewerOnes) {
+    const fs::path tables = folder / "tables";
+    fs::create_directories(tables / "more");
+    killed([&] {
+        auto* left = new io::Temporary(tables, io::Temporary::Kind::folder, 0700);
+        for (const char* name : io::run_tables) std::ofstream(left->path() / name) << "left over";
+        fs::path ready = left->path();
+        left->move(ready.replace_extension(".ready"));
+    });
+    std::ofstream(tables / "events.csv") << "newer";  // by hand, or by another program
+    const fs::file_time_type later = fs::file_time_type::clock::now() + std::chrono::seconds(1);
+    fs::last_write_time(tables / "events.csv", later);
+    write_csv(tables / "other.csv", rows);
+    EXPECT_EQ(read_text(tables / "events.csv"), "newer");
+    EXPECT_EQ(read_text(tables / "samples.csv"), "left over");  // it was missing
     EXPECT_EQ(std::distance(fs::directory_iterator(tables), fs::directory_iterator()), 5);
 }
 
