@@ -106,7 +106,9 @@ def integer(name: str, value: Any, low: int, high: int | None = None, meaning: s
 
 def real_array(name: str, value: Any) -> npt.NDArray[Any]:
     """An array of real numbers, of any shape and number type."""
-    if isinstance(value, np.ma.MaskedArray):
+    if isinstance(value, (list, tuple)) and any(isinstance(item, np.ma.MaskedArray) for item in value):
+        value = np.ma.stack(value) if len({np.shape(item) for item in value}) == 1 else value
+    if isinstance(value, np.ma.MaskedArray) and value.dtype.kind in "fiub":
         value = np.ma.filled(value.astype(np.float64), np.nan)  # what is masked is not known
     try:
         array = np.asarray(value)

@@ -12,17 +12,56 @@ import contextlib
 import os
 import threading
 import uuid
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
 import xarray as xr
 
 from footfall._arguments import os_error, shown
 from footfall.errors import InvalidInput
 
+Result = TypeVar("Result")
+
 _one_at_a_time = threading.Lock()
+
+#: As many symbolic links as the kernel follows.
+_MOST_LINKS = 40
 
 #: How files begin: NetCDF-4, which is HDF5, and the classic formats.
 _SIGNATURES = (b"\x89HDF\r\n\x1a\n", b"CDF\x01", b"CDF\x02", b"CDF\x05")
+
+
+#: A process that is forked while another thread holds the lock would wait for it for ever.
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=lambda: _one_at_a_time._at_fork_reinit())  # type: ignore[attr-defined]
+
+
+def _undisturbed(call: Callable[[], Result]) -> Result:
+    """What ``call()`` gives, made in a thread that no signal reaches: Ctrl-C inside xarray leaves its locks held. An
+    interrupt that comes meanwhile is raised when the call has ended."""
+    results: list[Result] = []
+    errors: list[BaseException] = []
+
+    def work() -> None:
+        try:
+            results.append(call())
+        except BaseException as error:
+            errors.append(error)
+
+    thread = threading.Thread(target=work, name="footfall-netcdf", daemon=True)
+    thread.start()
+    interrupt: KeyboardInterrupt | None = None
+    while thread.is_alive():
+        try:
+            thread.join(0.1)
+        except KeyboardInterrupt as error:
+            interrupt = error
+    if interrupt is not None:
+        raise interrupt
+    if errors:
+        raise errors[0]
+    return results[0]
 
 
 def _check_name(file: Path) -> None:
@@ -49,24 +88,60 @@ def read_netcdf(file: Path) -> xr.Dataset:
         raise InvalidInput(
             f"{file}: is not a NetCDF file; one that 'footfall run -o' or Run.save has written is wanted"
         )
+    def load() -> xr.Dataset:
+        # An absolute name: xarray takes "~" for the home folder.
+        with xr.open_dataset(Path(os.path.abspath(file)), engine="netcdf4") as opened:
+            return opened.load()
+
     with _one_at_a_time:
         try:
-            with xr.open_dataset(file, engine="netcdf4") as opened:
-                return opened.load()
+            return _undisturbed(load)
         except (MemoryError, KeyboardInterrupt):
             raise
         except Exception as error:  # the libraries have many errors for a file that is not whole
             raise InvalidInput(f"{file}: cannot be read to its end: it is damaged or only a part of a file") from error
 
 
+def _adopt_rights(partial: Path, target: Path) -> None:
+    """Gives a new file the owner, as far as that is allowed, and the mode of the one that it replaces."""
+    if not target.exists():
+        return
+    old = target.stat()
+    with contextlib.suppress(PermissionError):
+        os.chown(partial, old.st_uid, old.st_gid)
+    os.chmod(partial, old.st_mode & 0o777)
+
+
+def _bring_to_the_disk(path: Path) -> None:
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
 def written_whole(file: Path, dataset: xr.Dataset) -> Path:
     """Writes a NetCDF-4 file, which appears whole or not at all, and gives its path. OSError where that fails."""
+    # A stream's link, such as /dev/stdout, leads to whatever file the stream goes to: it is not one to be replaced.
+    link = file
+    for _ in range(_MOST_LINKS):
+        if not link.is_symlink():
+            break
+        if str(link.parent.resolve()).startswith("/proc/"):
+            raise os_error(22, f"cannot write {file}: it is an open stream of a program; name a file")
+        link = link.parent / os.readlink(link)
+    else:
+        raise os_error(40, f"cannot write {file}: it is a symbolic link that leads back to itself")
     target = Path(os.path.realpath(file))  # what a link points to is replaced, not the link
     _check_name(target)
+    if file.is_symlink() and not target.exists():
+        raise os_error(2, f"cannot write {file}: it is a symbolic link that leads to no file")
     if target.is_dir():
         raise os_error(21, f"cannot write {file}: it is a folder")
     if target.exists() and not target.is_file():
         raise InvalidInput(f"path: {str(file)!r} is not allowed: it is neither a file nor free for one")
+    if target.exists() and not os.access(target, os.W_OK):
+        raise os_error(13, f"cannot write {file}: it is write-protected")
     if not target.parent.is_dir():
         raise os_error(2, f"cannot write {file}: there is no folder {file.parent}")
     partial = target.with_name(f".{uuid.uuid4().hex}.part")
@@ -74,8 +149,11 @@ def written_whole(file: Path, dataset: xr.Dataset) -> Path:
         try:
             os.close(os.open(partial, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
             with _one_at_a_time:
-                dataset.to_netcdf(partial, engine="netcdf4", format="NETCDF4")
+                _undisturbed(lambda: dataset.to_netcdf(partial, engine="netcdf4", format="NETCDF4"))
+            _adopt_rights(partial, target)
+            _bring_to_the_disk(partial)
             os.replace(partial, target)
+            _bring_to_the_disk(target.parent)
         except OSError as error:
             raise os_error(error.errno or 0, f"cannot write {file}: {error.strerror or error}") from None
         except RuntimeError as error:  # how the NetCDF library says that a disk is full

@@ -115,6 +115,57 @@ def test_save_replaces_a_file_whole_or_not_at_all(saved: Path, rolling: footfall
     assert saved.read_bytes() == before and {file.name for file in tmp_path.iterdir()} == {"run.nc", "link.nc"}
 
 
+def test_save_keeps_the_mode_of_what_it_replaces(saved: Path, impact: footfall.Run) -> None:
+    saved.chmod(0o640)
+    impact.save(saved)
+    assert stat.S_IMODE(saved.stat().st_mode) == 0o640
+
+
+def test_save_replaces_no_stream_and_follows_no_link_to_nothing(impact: footfall.Run, tmp_path: Path) -> None:
+    with (tmp_path / "log.txt").open("w") as log:
+        (tmp_path / "stream").symlink_to(f"/proc/self/fd/{log.fileno()}")
+        with pytest.raises(OSError, match="open stream of a program"):
+            impact.save(tmp_path / "stream")
+    (tmp_path / "dangling").symlink_to("nowhere")
+    with pytest.raises(FileNotFoundError, match="leads to no file"):
+        impact.save(tmp_path / "dangling")
+    (tmp_path / "loop").symlink_to("loop")
+    with pytest.raises(OSError, match="leads back to itself"):
+        impact.save(tmp_path / "loop")
+
+
+def test_a_name_is_no_home_folder(saved: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(saved.parent)
+    monkeypatch.setenv("HOME", str(saved.parent / "elsewhere"))
+    (saved.parent / "~").mkdir()
+    saved.rename(saved.parent / "~" / "run.nc")
+    assert footfall.open("~/run.nc").title
+
+
+_INTERRUPTED = """
+import os, signal, sys, threading
+import footfall
+run = footfall.run("single-impact")
+run.save("a.nc")
+threading.Timer(float(sys.argv[1]), lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+try:
+    while True:
+        run.save("a.nc")
+        footfall.open("a.nc")
+except KeyboardInterrupt:
+    footfall.open("a.nc")  # no lock is left behind
+    print(sorted(os.listdir(".")))
+"""
+
+
+@pytest.mark.parametrize("after", [0.05, 0.1, 0.2])
+def test_ctrl_c_while_it_saves_ends_it_and_leaves_nothing(tmp_path: Path, after: float) -> None:
+    ended = subprocess.run(
+        [sys.executable, "-c", _INTERRUPTED, str(after)], cwd=tmp_path, capture_output=True, text=True, timeout=60
+    )
+    assert ended.stdout == "['a.nc']\n", ended.stderr
+
+
 def test_what_cannot_be_read_says_so(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match=r"cannot read .*missing\.nc: No such file") as caught:
         footfall.open(tmp_path / "missing.nc")

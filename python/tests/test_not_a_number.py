@@ -70,6 +70,18 @@ def test_infinitely_far_above_the_ground_is_free_flight(friction: object) -> Non
     assert far == high
 
 
+def test_a_list_of_masked_arrays_keeps_its_masks(paper_law: ContactLaw) -> None:
+    depth = [np.ma.masked_array([1e-4, 2e-4], [False, True]), np.ma.masked_array([1e-4, 2e-4])]
+    force = paper_law.evaluate(depth, 0.0, np.zeros((2, 2, 2))).normal_force
+    np.testing.assert_array_equal(np.isnan(force), [[False, True], [False, False]])
+
+
+@pytest.mark.parametrize("values", [[1e-4 + 2j], ["1e-4"], np.array(["2026-11-25"], "M8[D]"), np.array([3], "m8[s]")])
+def test_masked_arrays_of_no_real_numbers_are_refused(paper_law: ContactLaw, values: object) -> None:
+    with pytest.raises(TypeError, match="real numbers are wanted"):
+        paper_law.evaluate(np.ma.masked_array(values), 0.0, [0.0, 0.0])
+
+
 def test_what_is_masked_is_not_known(paper_law: ContactLaw) -> None:
     depth = np.ma.masked_array([1e-3, 1e-3], [False, True])
     assert np.isnan(paper_law.evaluate(depth, 0.0, [0, 0]).normal_force).tolist() == [False, True]

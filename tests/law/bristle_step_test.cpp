@@ -161,6 +161,18 @@ TEST(BristleStep, ElasticPlasticBristleIsTheLimitOfLittleDamping) {
     }
 }
 
+TEST(BristleStep, WhatDamperAndClutchTakeIsRightHoweverLongTheStep) {
+    // Steps from a tenth of D_t/K_t to a million of it, beside a tolerance a million times finer.
+    const Vector2<double> V(1, 0), u(0, 0);
+    for (const double dt : {3e-5, 1e-3, 1e-2, 0.1, 2.0}) {
+        const BristleStep step = BristleStepper(paper())(depth, 0, V, u, dt);
+        const BristleStep fine = BristleStepper(paper(), 1e-10)(depth, 0, V, u, dt);
+        const double work = fine.mean_friction_force.norm() * V.norm() * dt;
+        EXPECT_NEAR(step.tangential_damper, fine.tangential_damper, 1e-3 * work) << dt;
+        EXPECT_NEAR(step.clutch, fine.clutch, 1e-3 * work) << dt;
+    }
+}
+
 TEST(BristleStep, WithoutFrictionThereIsOnlyTheNormalForce) {
     const ContactLaw<LinearNormal<>, NoFriction<>> law{{1e4, 0}, {}};
     const BristleStep step = BristleStepper(law)(depth, 0, {1, 1}, {0, 0}, host_step);

@@ -178,9 +178,14 @@ private:
             const double bristle_size = std::max(size, end.norm());
             const double force_size =
                 std::max(f.segment<2>(force_at).norm(), change.template segment<2>(force_at).norm() / h);
-            const double wrong = std::max(ratio(error.template head<2>().norm(), bristle_size),
-                                          ratio(error.template segment<2>(force_at).norm(), force_size * dt)) /
-                                 tolerance_;
+            // What damper and clutch take is measured by the work of the force: far beyond D_t/K_t the damper's
+            // quadrature is worth nothing while bristle and force are right already.
+            const double work = force_size * held.V.norm() * dt;
+            const double taken = std::max(std::abs(error[damper_at]), std::abs(error[clutch_at]));
+            const double wrong =
+                std::max({ratio(error.template head<2>().norm(), bristle_size),
+                          ratio(error.template segment<2>(force_at).norm(), force_size * dt), ratio(taken, work)}) /
+                tolerance_;
             const double factor = 0.9 / std::cbrt(std::max(wrong, 1e-3));
             if (!(wrong <= 1) && h > shortest) {
                 h *= std::isfinite(wrong) ? std::clamp(factor, 0.1, 0.9) : 0.1;
