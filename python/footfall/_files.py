@@ -38,20 +38,26 @@ if hasattr(os, "register_at_fork"):
 
 
 def _undisturbed(call: Callable[[], Result]) -> Result:
-    """What ``call()`` gives, made in a thread that no signal reaches: Ctrl-C inside xarray leaves its locks held. An
-    interrupt that comes meanwhile is raised when the call has ended."""
+    """What ``call()`` gives, made alone, in a thread that no signal reaches: Ctrl-C inside xarray leaves its locks held.
+
+    The thread holds the lock itself and does its work to the end, so that an interrupt may come at any moment.
+    """
     results: list[Result] = []
     errors: list[BaseException] = []
 
     def work() -> None:
         try:
-            results.append(call())
+            with _one_at_a_time:
+                results.append(call())
         except BaseException as error:
             errors.append(error)
 
-    thread = threading.Thread(target=work, name="footfall-netcdf", daemon=True)
-    thread.start()
+    thread = threading.Thread(target=work, name="footfall-netcdf")
     interrupt: KeyboardInterrupt | None = None
+    try:
+        thread.start()
+    except KeyboardInterrupt as error:
+        interrupt = error
     while thread.is_alive():
         try:
             thread.join(0.1)
@@ -93,13 +99,12 @@ def read_netcdf(file: Path) -> xr.Dataset:
         with xr.open_dataset(Path(os.path.abspath(file)), engine="netcdf4") as opened:
             return opened.load()
 
-    with _one_at_a_time:
-        try:
-            return _undisturbed(load)
-        except (MemoryError, KeyboardInterrupt):
-            raise
-        except Exception as error:  # the libraries have many errors for a file that is not whole
-            raise InvalidInput(f"{file}: cannot be read to its end: it is damaged or only a part of a file") from error
+    try:
+        return _undisturbed(load)
+    except MemoryError:
+        raise
+    except Exception as error:  # the libraries have many errors for a file that is not whole
+        raise InvalidInput(f"{file}: cannot be read to its end: it is damaged or only a part of a file") from error
 
 
 def _adopt_rights(partial: Path, target: Path) -> None:
@@ -145,20 +150,23 @@ def written_whole(file: Path, dataset: xr.Dataset) -> Path:
     if not target.parent.is_dir():
         raise os_error(2, f"cannot write {file}: there is no folder {file.parent}")
     partial = target.with_name(f".{uuid.uuid4().hex}.part")
-    try:
+
+    def write() -> None:
         try:
             os.close(os.open(partial, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
-            with _one_at_a_time:
-                _undisturbed(lambda: dataset.to_netcdf(partial, engine="netcdf4", format="NETCDF4"))
+            dataset.to_netcdf(partial, engine="netcdf4", format="NETCDF4")
             _adopt_rights(partial, target)
             _bring_to_the_disk(partial)
             os.replace(partial, target)
             _bring_to_the_disk(target.parent)
-        except OSError as error:
-            raise os_error(error.errno or 0, f"cannot write {file}: {error.strerror or error}") from None
-        except RuntimeError as error:  # how the NetCDF library says that a disk is full
-            raise os_error(5, f"cannot write {file}: the disk is full or failing") from error
-    finally:
-        with contextlib.suppress(OSError):
-            partial.unlink(missing_ok=True)
+        finally:
+            with contextlib.suppress(OSError):
+                partial.unlink(missing_ok=True)
+
+    try:
+        _undisturbed(write)
+    except OSError as error:
+        raise os_error(error.errno or 0, f"cannot write {file}: {error.strerror or error}") from None
+    except RuntimeError as error:  # how the NetCDF library says that a disk is full
+        raise os_error(5, f"cannot write {file}: the disk is full or failing") from error
     return file

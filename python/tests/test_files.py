@@ -154,6 +154,9 @@ try:
         footfall.open("a.nc")
 except KeyboardInterrupt:
     footfall.open("a.nc")  # no lock is left behind
+    for thread in threading.enumerate():
+        if thread.name == "footfall-netcdf":
+            thread.join()  # an interrupt just when it began does not wait for it
     print(sorted(os.listdir(".")))
 """
 

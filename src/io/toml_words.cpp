@@ -45,7 +45,7 @@ std::size_t byte_of(std::string_view line, int column) {
 /// One error of the parser, with the line that it is in.
 class Sentence {
 public:
-    Sentence(std::string_view description, std::string_view text, Position at) : line_(line_of(text, at.line)) {
+    Sentence(std::string_view description, std::string_view text, const Position& at) : line_(line_of(text, at.line)) {
         constexpr std::string_view opening = "Error while parsing ";
         const std::size_t colon = description.find(": ");
         if (description.starts_with(opening) && colon != std::string_view::npos) {
@@ -248,7 +248,7 @@ private:
 
 }  // namespace
 
-std::string in_plain_words(std::string_view description, std::string_view text, Position at) {
+std::string in_plain_words(std::string_view description, std::string_view text, const Position& at) {
     return Sentence(description, text, at).say();
 }
 

@@ -9,7 +9,7 @@
 namespace footfall::io {
 
 /// `description` is what toml++ says, `at` where, in `text`. Nothing of its own words is left.
-[[nodiscard]] std::string in_plain_words(std::string_view description, std::string_view text, Position at);
+[[nodiscard]] std::string in_plain_words(std::string_view description, std::string_view text, const Position& at);
 
 /// "the string that begins here is not closed: ...", for '"', '\'', '[' and '{'.
 [[nodiscard]] std::string not_closed(char what);

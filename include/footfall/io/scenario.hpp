@@ -27,8 +27,8 @@ struct ScenarioProblem {
     std::string setting = {};  ///< Setting::place where a setting is wrong; the line and column are not the file's then
 };
 
-/// What is wrong in a scenario file; what() has a line "FILE:LINE:COLUMN: message", or "PLACE: message" where a setting is
-/// wrong, for each of the first twenty problems, and counts the rest.
+/// What is wrong in a scenario file; what() has a line "FILE:LINE:COLUMN: message", or "PLACE: message" where a setting
+/// is wrong, for each of the first twenty problems, and counts the rest.
 class ScenarioError : public InvalidInput {
 public:
     ScenarioError(const std::string& file, std::vector<ScenarioProblem> problems, std::size_t more = 0);
