@@ -322,7 +322,8 @@ int fit(const ObliqueArguments& arguments) {
     check_vary(arguments.vary, sphere.contact);
     const ObliqueData data = read_data(arguments, sphere);
     const ObliqueMeasurement& measured = data.measured;
-    ObliqueFit result = fit_oblique(sphere, measured, arguments.vary);
+    ObliqueFit result =
+        in_context(arguments.data.string(), [&] { return fit_oblique(sphere, measured, arguments.vary); });
     std::vector<std::string>& warnings = result.result.warnings;
     warnings.insert(warnings.begin(), data.remarks.warnings.begin(), data.remarks.warnings.end());
     if (signs_differ(measured.values, result.model)) {

@@ -370,7 +370,15 @@ ObliqueFit fit_oblique(const ObliqueSphere& start, const ObliqueMeasurement& mea
     }
     const auto model = [&](std::span<const double> x) {
         ObliqueSphere sphere = start;
-        for (std::size_t i = 0; i < keys.size(); ++i) *place_of(sphere.contact, keys[i]).value = x[i];
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            if (!std::isfinite(x[i])) {
+                throw InvalidInput(fmt::format(
+                    "the fit runs away: {} grows beyond any number, so these data do not determine it; give it, or "
+                    "start elsewhere",
+                    keys[i]));
+            }
+            *place_of(sphere.contact, keys[i]).value = x[i];
+        }
         std::vector<double> values;
         for (const Approach& approach : measured.approaches)
             values.push_back(quantity.of(oblique_impact(sphere, approach)));

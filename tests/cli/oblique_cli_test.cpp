@@ -112,6 +112,13 @@ TEST_F(ObliqueCli, ReadsThePublishedAngleFilesAsTheyAre) {
     }
 }
 
+TEST_F(ObliqueCli, SaysWhereAFitRunsAway) {
+    const std::string file = folder.write("d.csv", "angle,rebound_angle\n10,6.442\n").string();
+    const Result answer = oblique(ball + friction + "--tolerance 1e-6 --vary friction.coefficient --fit " + file);
+    EXPECT_EQ(answer.exit_code, 2);
+    EXPECT_NE(answer.err.find("d.csv: the fit runs away: friction.coefficient"), std::string::npos) << answer.err;
+}
+
 TEST_F(ObliqueCli, WarnsOfSignsThatAreTheOtherWayRound) {
     const std::string file = std::string(FOOTFALL_SOURCE_DIR) + "/data/published/chung_ooi_test4_omega.csv";
     const std::string words = ball + friction + "--vary friction.stiffness --where series=Experiment --fit " + file;
