@@ -153,7 +153,9 @@ def written_whole(file: Path, dataset: xr.Dataset) -> Path:
 
     def write() -> None:
         try:
-            os.close(os.open(partial, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+            # Until it has the rights of what it replaces, nobody else may read it.
+            mode = 0o600 if target.exists() else 0o666
+            os.close(os.open(partial, os.O_CREAT | os.O_EXCL | os.O_WRONLY, mode))
             dataset.to_netcdf(partial, engine="netcdf4", format="NETCDF4")
             _adopt_rights(partial, target)
             _bring_to_the_disk(partial)

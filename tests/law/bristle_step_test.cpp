@@ -173,6 +173,16 @@ TEST(BristleStep, WhatDamperAndClutchTakeIsRightHoweverLongTheStep) {
     }
 }
 
+TEST(BristleStep, AStretchedBristleAtRestIsNoLongStep) {
+    const Paper no_clutch{{8.5e6, 3.1e3}, {{12.75e6, 3.1e3, 0, 0}}};
+    for (const double speed : {0.0, 1e-12, 1e-9}) {
+        const BristleStep step = BristleStepper(paper())(1e-3, 0, {speed, 0}, {2e-4, 0}, 1e-3);
+        EXPECT_EQ(step.left, 0) << speed;
+        EXPECT_GE(step.tangential_damper, 0) << speed;
+        EXPECT_EQ(BristleStepper(no_clutch)(1e-3, 0, {speed, 0}, {2e-5, 0}, 1e-3).left, 0) << speed;
+    }
+}
+
 TEST(BristleStep, WithoutFrictionThereIsOnlyTheNormalForce) {
     const ContactLaw<LinearNormal<>, NoFriction<>> law{{1e4, 0}, {}};
     const BristleStep step = BristleStepper(law)(depth, 0, {1, 1}, {0, 0}, host_step);

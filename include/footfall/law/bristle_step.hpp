@@ -180,7 +180,9 @@ private:
                 std::max(f.segment<2>(force_at).norm(), change.template segment<2>(force_at).norm() / h);
             // What damper and clutch take is measured by the work of the force: far beyond D_t/K_t the damper's
             // quadrature is worth nothing while bristle and force are right already.
-            const double work = force_size * held.V.norm() * dt;
+            // At rest nothing does work: what the bristle can hold is the measure then.
+            const double work =
+                force_size * held.V.norm() * dt + held.scale * friction.stiffness * bristle_size * bristle_size;
             const double taken = std::max(std::abs(error[damper_at]), std::abs(error[clutch_at]));
             const double wrong =
                 std::max({ratio(error.template head<2>().norm(), bristle_size),
