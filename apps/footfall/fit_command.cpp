@@ -87,7 +87,8 @@ int run_fit(const FitArguments& arguments) {
     if (arguments.csv) outputs.push_back({"--csv", *arguments.csv});
     keep_apart({{"DATA", arguments.data}}, outputs);
     if (arguments.csv) check_csv_file(*arguments.csv);
-    const FitStudyResult result = fit(study_of(arguments));
+    const FitStudy study = study_of(arguments);
+    const FitStudyResult result = in_context(arguments.data.string(), [&] { return fit(study); });
     std::vector<std::filesystem::path> written;
     if (arguments.csv) {
         write_csv(*arguments.csv, table(result));
