@@ -1,5 +1,4 @@
 // footfall fit: parameters of laws from measurements.
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -38,16 +37,13 @@ struct FitArguments {
     bool json = false;
 };
 
-constexpr std::array kinds{Measured::restitution, Measured::force_indentation, Measured::force_time};
-
 FitValue read(const char* option, const std::string& text, const char* unit) {
     return in_context(option, [&] { return parse_fit_value(text, unit); });
 }
 
 FitData data_of(const FitArguments& arguments) {
     FitInput input = arguments.input;
-    for (const Measured kind : kinds)
-        if (name_of(kind) == arguments.kind) input.kind = kind;
+    input.kind = measured_by_name(arguments.kind);
     if (!arguments.gravity.empty()) input.gravity = quantity("--gravity", arguments.gravity, "m/s^2");
     return load_fit_data(arguments.data, input);
 }

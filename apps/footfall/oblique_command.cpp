@@ -249,17 +249,7 @@ bool signs_differ(const std::vector<double>& measured, const std::vector<double>
 
 /// Refuses what is no "normal.KEY" or "friction.KEY" of these laws.
 void check_vary(const std::vector<std::string>& keys, const ContactParameters& contact) {
-    std::vector<std::string> known;
-    const auto add = [&known](std::string_view kind, const auto& any) {
-        std::visit(
-            [&](const auto& law) {
-                for (const auto& parameter : law.parameters())
-                    known.push_back(fmt::format("{}.{}", kind, parameter.key));
-            },
-            any);
-    };
-    add("normal", contact.normal);
-    add("friction", contact.friction);
+    const std::vector<std::string> known = parameter_keys(contact);
     for (const std::string& key : keys) {
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         throw InvalidInput(fmt::format("--vary: '{}' is no parameter of these laws{} (there are {})", key,

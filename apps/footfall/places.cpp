@@ -9,6 +9,7 @@
 
 #include "footfall/io/printable.hpp"
 #include "footfall/math/error.hpp"
+#include "io/temporary.hpp"
 
 namespace footfall::cli {
 namespace fs = std::filesystem;
@@ -49,7 +50,7 @@ bool is_standard_output(const fs::path& path) {
 
 std::vector<Place> table_places(const std::string& option, const fs::path& folder) {
     std::vector<Place> places{{option, folder}};
-    for (const char* table : {"samples.csv", "events.csv", "impacts.csv"}) places.push_back({option, folder / table});
+    for (const char* table : io::run_tables) places.push_back({option, folder / table});
     return places;
 }
 

@@ -15,6 +15,7 @@
 #include "footfall/io/scenario.hpp"
 #include "footfall/io/staged_files.hpp"
 #include "footfall/simulate/run.hpp"
+#include "io/temporary.hpp"
 #include "places.hpp"
 #include "settings.hpp"
 #include "shipped.hpp"
@@ -80,7 +81,7 @@ int run_scenario(const RunArguments& arguments) {
     }
     if (arguments.csv_directory) {
         files.add_csv(*arguments.csv_directory, scenario, result);
-        for (const char* table : {"samples.csv", "events.csv", "impacts.csv"}) {
+        for (const char* table : io::run_tables) {
             written.push_back(*arguments.csv_directory / table);
         }
     }

@@ -241,8 +241,7 @@ void bind_fit(nb::module_& module) {
            const std::string& touchdown, bool quasistatic, const std::string& loss, int starts, double confidence,
            bool noise_is_known) {
             FitInput input{{table_columns, where, skip_bad_rows}, std::nullopt, gravity};
-            for (const Measured one : {Measured::restitution, Measured::force_indentation, Measured::force_time})
-                if (kind == name_of(one)) input.kind = one;
+            if (kind) input.kind = measured_by_name(*kind);
             FitStudy study{.data = file ? load_fit_data(*file, input) : parse_fit_data(csv, "data", input)};
             for (const std::string& law : laws) study.laws.push_back(parse_fit_law(law));
             const auto value = [](const char* name, const std::string& given, const char* unit) {

@@ -435,9 +435,7 @@ struct Document::Parsed {
 
 Document::Document(std::string_view text, const std::string& file, const std::vector<Setting>& settings) {
     const auto refuse = [&file](const Position& at, const std::string& message) {
-        Problems problems(file);
-        problems.add(at, std::string_view(message));
-        problems.throw_if_any();
+        Problems(file).throw_with(at, message);
     };
     const TomlScan scan = scan_toml(text);
     if (scan.too_deep) {

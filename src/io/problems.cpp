@@ -69,7 +69,15 @@ bool Problems::before(const Position& a, const Position& b) const {
 }
 
 void Problems::throw_if_any() const {
-    if (problems_.empty()) return;
+    if (!problems_.empty()) throw_all();
+}
+
+void Problems::throw_with(const Position& at, std::string_view message) {
+    add(at, message);
+    throw_all();
+}
+
+void Problems::throw_all() const {
     std::vector<ScenarioProblem> sorted = problems_;
     std::stable_sort(sorted.begin(), sorted.end(), [](const ScenarioProblem& a, const ScenarioProblem& b) {
         if (a.setting.empty() != b.setting.empty()) return b.setting.empty();

@@ -45,8 +45,11 @@ public:
     /// Throws ScenarioError with every problem that was kept, those of settings first, then in the order of the file;
     /// does nothing where there is none.
     void throw_if_any() const;
+    /// Adds the last problem and throws as throw_if_any does.
+    [[noreturn]] void throw_with(const Position& at, std::string_view message);
 
 private:
+    [[noreturn]] void throw_all() const;
     [[nodiscard]] bool is_setting(const Position& at) const { return !at.source.empty() && at.source != file_; }
     [[nodiscard]] bool full() const noexcept;
 

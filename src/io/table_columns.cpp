@@ -2,6 +2,7 @@
 #include "io/table_columns.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -39,18 +40,10 @@ private:
     std::string normalized_;
 };
 
-/// A unit as a table's header writes it; "-" and "1" are none.
+/// As readable_unit, but throws InvalidInput.
 Unit unit_of(std::string_view text) {
     const bool none = text.empty() || text == "-" || text == "1";
     return none ? Unit{} : parse_unit(text);
-}
-
-std::optional<Unit> readable_unit(std::string_view text) {
-    try {
-        return unit_of(text);
-    } catch (const InvalidInput&) {
-        return std::nullopt;
-    }
 }
 
 /// The words of a name.
@@ -97,7 +90,26 @@ std::vector<std::string> unit_readings(std::span<const std::string_view> words) 
 
 std::string quoted(const Cell& cell) { return fmt::format("'{}'", cell.text); }
 
+/// The name and what stands behind it: "F / N", "speed in mm/s".
+std::vector<std::pair<std::string_view, std::string_view>> halves_of(std::string_view name) {
+    std::vector<std::pair<std::string_view, std::string_view>> halves;
+    for (const std::string_view between : {"/", " in "}) {
+        const std::size_t place = name.find(between);
+        if (place == std::string_view::npos) continue;
+        halves.emplace_back(trimmed(name.substr(0, place)), trimmed(name.substr(place + between.size())));
+    }
+    return halves;
+}
+
 }  // namespace
+
+std::optional<Unit> readable_unit(std::string_view text) {
+    try {
+        return unit_of(text);
+    } catch (const InvalidInput&) {
+        return std::nullopt;
+    }
+}
 
 Columns::Columns(TableText& table, std::span<const Sought> sought, const TableInput& input, Problems& problems)
     : table_(table), sought_(sought) {
@@ -189,12 +201,8 @@ bool Columns::has_dimension_of(const Sought& sought, std::string_view unit) cons
 
 /// The unit in a name that was chosen for a quantity: "us" of "time_us", "mm/s" of "U in mm/s".
 std::string Columns::unit_within(std::string_view name, const Sought& sought) const {
-    for (const std::string_view between : {"/", " in "}) {
-        const std::size_t place = name.find(between);
-        if (place == std::string_view::npos) continue;
-        const std::string_view rest = trimmed(name.substr(place + between.size()));
+    for (const auto& [first, rest] : halves_of(name))
         if (!rest.empty() && has_dimension_of(sought, rest)) return std::string(rest);
-    }
     // The unit of a speed may have a stroke of its own: "u mm/s".
     const std::size_t blank = name.rfind(' ');
     const std::string_view last = blank == std::string_view::npos ? std::string_view{} : name.substr(blank + 1);
@@ -233,8 +241,7 @@ void Columns::choose(std::size_t sought, std::string_view text, Problems& proble
     }
     found.column = columns.front();
     const Cell& cell = table_.header[found.column];
-    const auto holds = [&](const FoundColumn& one) { return one.column == found.column; };
-    if (std::any_of(found_.begin(), found_.end(), holds)) {
+    if (is_taken(found.column)) {
         problems.add(cell.at(), fmt::format("{} is chosen for two quantities", quoted(cell)));
         return;
     }
@@ -256,13 +263,8 @@ void Columns::choose(std::size_t sought, std::string_view text, Problems& proble
 
 std::optional<Columns::Named> Columns::named_quantity(std::string_view name) const {
     if (const auto whole = known(name)) return Named{*whole, ""};
-    // "F / N", "speed in mm/s".
-    for (const std::string_view between : {"/", " in "}) {
-        const std::size_t place = name.find(between);
-        if (place == std::string_view::npos) continue;
-        const std::string_view rest = trimmed(name.substr(place + between.size()));
-        if (const auto sought = known(trimmed(name.substr(0, place)))) return Named{*sought, std::string(rest)};
-    }
+    for (const auto& [first, rest] : halves_of(name))
+        if (const auto sought = known(first)) return Named{*sought, std::string(rest)};
     // A unit among the words of the name, most often the last: "time_us", "final_omega_rad_s".
     const std::vector<std::string_view> words = words_of(name);
     constexpr std::size_t longest = 3, most_words = 12;
@@ -281,8 +283,7 @@ std::optional<Columns::Named> Columns::named_quantity(std::string_view name) con
 }
 
 void Columns::find_by_name(std::size_t column) {
-    const auto holds = [&](const FoundColumn& one) { return one.column == column; };
-    if (std::any_of(found_.begin(), found_.end(), holds)) return;
+    if (is_taken(column)) return;
     const Head& head = heads_[column];
     auto quantity = named_quantity(head.name);
     if (!quantity || std::find(chosen_.begin(), chosen_.end(), quantity->sought) != chosen_.end()) return;
@@ -294,6 +295,10 @@ void Columns::find_by_name(std::size_t column) {
         found.other = std::move(quantity->unit);
     }
     found_.push_back(std::move(found));
+}
+
+bool Columns::is_taken(std::size_t column) const {
+    return std::any_of(found_.begin(), found_.end(), [&](const FoundColumn& one) { return one.column == column; });
 }
 
 bool Columns::has(std::size_t sought) const {
@@ -358,7 +363,10 @@ void Columns::convert(FoundColumn& found, Problems& problems) const {
             throw InvalidInput(
                 fmt::format("expected {}, got {}", describe(wanted.dimension), describe(given.dimension)));
         }
-        found.scale = {{}, given.factor / wanted.factor, given.exponent - wanted.exponent};
+        const double exponent = given.exponent - wanted.exponent;
+        found.factor = given.factor / wanted.factor;
+        found.ten = std::pow(10.0, std::abs(exponent));
+        found.divide = exponent < 0;
     } catch (const InvalidInput& error) {
         const bool said = cell.text.find(found.unit) != std::string_view::npos;
         problems.add(cell.at(), said ? fmt::format("{}: {}", quoted(cell), error.what())
@@ -401,8 +409,7 @@ void Columns::say_what_was_meant(Problems& problems) const {
             if (other.size() > short_name) names.emplace_back(other);
     }
     for (std::size_t column = 0; column < heads_.size(); ++column) {
-        const auto holds = [&](const FoundColumn& one) { return one.column == column; };
-        if (std::any_of(found_.begin(), found_.end(), holds)) continue;
+        if (is_taken(column)) continue;
         const std::string name = normalized(heads_[column].name);
         const std::string meant = name.size() > short_name ? did_you_mean(name, names) : "";
         if (meant.empty()) continue;

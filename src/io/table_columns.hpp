@@ -38,8 +38,13 @@ struct FoundColumn {
     std::string unit = {};   ///< as the table or the user gives it; empty: none
     std::string other = {};  ///< another unit that its name or the row below gives
     double sign = 1;
-    Unit scale = {};  ///< to the sought unit
+    /// To the sought unit: its power of ten apart, as Unit has it, and either multiplied or divided by.
+    double factor = 1, ten = 1;
+    bool divide = false;
 };
+
+/// A unit as a table's header writes it, "-" and "1" being none; nothing where it cannot be read.
+[[nodiscard]] std::optional<Unit> readable_unit(std::string_view text);
 
 /// The columns of a table. Units may stand behind a name, in brackets, in parentheses or after an underscore, or in a
 /// row of their own below the header.
@@ -73,6 +78,7 @@ private:
         bool open = false;  ///< a bracket without its other half
     };
     [[nodiscard]] static Head head_of(std::string_view text);
+    [[nodiscard]] bool is_taken(std::size_t column) const;
     [[nodiscard]] const std::string& row_unit(std::size_t column) const;
     [[nodiscard]] std::optional<std::size_t> known(std::string_view name) const;
     [[nodiscard]] static std::vector<std::string> units_of(const Cells& cells);

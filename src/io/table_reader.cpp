@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,7 +10,6 @@
 #include "footfall/math/error.hpp"
 #include "io/nearest.hpp"
 #include "io/read.hpp"
-#include "io/utf8.hpp"
 
 namespace footfall::io {
 namespace {
@@ -19,10 +17,8 @@ namespace {
 /// `value` in the sought unit. Powers of ten below one are divided by: 29 um are the double next to 29e-6 then, as
 /// 29 * 1e-6 is not.
 double converted(double value, const FoundColumn& column) {
-    const double scaled = column.sign * value * column.scale.factor;
-    if (column.scale.exponent == 0) return scaled;
-    const double ten = std::pow(10.0, std::abs(column.scale.exponent));
-    return column.scale.exponent < 0 ? scaled / ten : scaled * ten;
+    const double scaled = column.sign * value * column.factor;
+    return column.divide ? scaled / column.ten : scaled * column.ten;
 }
 
 /// The first few of a list, and that there are more.
@@ -34,7 +30,7 @@ std::string first_of(const List& list, std::size_t most = 10) {
     return text;
 }
 
-/// A cell of a column with words, as the user writes it: 1 is 1.0.
+/// A cell is what a user asks for: the same text, or the same number.
 bool same_value(std::string_view a, std::string_view b) {
     const auto first = plain_number(a), second = plain_number(b);
     return a == b || (first && second && *first == *second);
@@ -44,30 +40,25 @@ bool same_value(std::string_view a, std::string_view b) {
 bool is_unit(std::string_view cell, const Sought& sought) {
     if (const std::size_t bracket = cell.find_first_of("[("); bracket != std::string_view::npos)
         cell = trimmed(cell.substr(bracket), " \t[]()");
-    if (cell.empty() || is_gap(cell) || is_number(cell)) return false;
-    try {
-        const Dimension dimension = parse_unit(cell).dimension;
-        return dimension == parse_unit(sought.unit).dimension || dimension != Dimension{};
-    } catch (const InvalidInput&) {
-        return false;
-    }
+    if (is_gap(cell) || is_number(cell)) return false;
+    const auto unit = readable_unit(cell);
+    return unit && (unit->dimension != Dimension{} || unit->dimension == parse_unit(sought.unit).dimension);
 }
 
 }  // namespace
 
 TableReader::TableReader(std::string text, std::string name, std::vector<Sought> sought, const TableInput& input,
                          std::string_view wanted)
-    : is_utf8_(is_utf8(text)),
-      text_(decoded(std::move(text), name)),
+    : text_(decoded(std::move(text), name)),
       name_(std::move(name)),
       problems_(name_),
       sought_(std::move(sought)),
       input_(input),
-      table_(split_table(text_, name_, wanted)) {
+      table_(split_table(text_.text, name_, wanted)) {
     columns_ = std::make_unique<Columns>(table_, sought_, input_, problems_);
     problems_.throw_if_any();
     pick_rows();
-    if (!is_utf8_) remarks_.notes.emplace_back("The text is no UTF-8; it was read as Windows-1252 (Latin-1).");
+    if (!text_.was_utf8) remarks_.notes.emplace_back("The text is no UTF-8; it was read as Windows-1252 (Latin-1).");
 }
 
 void TableReader::pick_rows() {
@@ -100,11 +91,7 @@ void TableReader::refuse_header(const std::string& message) {
     refuse(table_.header.front(), fmt::format("{} (columns here: {})", message, first_of(names, 20)));
 }
 
-void TableReader::refuse(const Cell& cell, const std::string& message) {
-    problems_.add(cell.at(), std::string_view(message));
-    problems_.throw_if_any();
-    std::abort();  // not reached: there is one
-}
+void TableReader::refuse(const Cell& cell, const std::string& message) { problems_.throw_with(cell.at(), message); }
 
 /// `allowed` says what the cell should be where it is no number.
 std::optional<double> TableReader::number(const Cell& cell, Style& style, std::string& allowed) {

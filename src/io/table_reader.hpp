@@ -76,8 +76,7 @@ private:
     void warn_of_style(const FoundColumn& column);
     void warn_of_numbers(std::span<const FoundColumn> columns, const std::vector<std::vector<double>>& values);
 
-    bool is_utf8_;
-    std::string text_;
+    DecodedText text_;
     std::string name_;
     Problems problems_;
     std::vector<Sought> sought_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,10 +25,7 @@ struct Line {
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
 [[noreturn]] void refuse(const std::string& name, const Position& at, const std::string& message) {
-    Problems problems(name);
-    problems.add(at, std::string_view(message));
-    problems.throw_if_any();
-    std::abort();  // not reached: there is one
+    Problems(name).throw_with(at, message);
 }
 
 constexpr std::size_t none = std::string_view::npos;
@@ -323,7 +319,7 @@ bool is_gap(std::string_view cell) {
     return std::find(gaps.begin(), gaps.end(), word) != gaps.end();
 }
 
-std::string decoded(std::string text, const std::string& name) {
+DecodedText decoded(std::string text, const std::string& name) {
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
         refuse(name, {}, "the file is in UTF-16; save it as UTF-8, or as plain CSV");
     const std::size_t zero = text.find('\0');
@@ -331,7 +327,8 @@ std::string decoded(std::string text, const std::string& name) {
         const auto lines = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n');
         refuse(name, {static_cast<int>(lines) + 1, 1}, "this is no table of text: there is a zero byte in it");
     }
-    if (!is_utf8(text)) text = from_windows_1252(text);
+    const bool was_utf8 = is_utf8(text);
+    if (!was_utf8) text = from_windows_1252(text);
     // Blanks that do not break a line are blanks.
     std::string plain;
     plain.reserve(text.size());
@@ -343,7 +340,7 @@ std::string decoded(std::string text, const std::string& name) {
         plain += size > 0 ? ' ' : text[i];
         i += std::max(size, std::size_t{1});
     }
-    return plain;
+    return {std::move(plain), was_utf8};
 }
 
 TableText split_table(std::string_view text, const std::string& name, std::string_view wanted) {

@@ -35,8 +35,13 @@ struct TableText {
     std::deque<std::string> unquoted;  ///< cells that had doubled quotes in them
 };
 
-/// The text of a file as UTF-8: what is no UTF-8 is taken for Windows-1252. Throws ScenarioError where it is no text.
-[[nodiscard]] std::string decoded(std::string text, const std::string& name);
+/// The text of a file as UTF-8, and whether it was that before.
+struct DecodedText {
+    std::string text;
+    bool was_utf8;
+};
+/// What is no UTF-8 is taken for Windows-1252. Throws ScenarioError where it is no text.
+[[nodiscard]] DecodedText decoded(std::string text, const std::string& name);
 
 /// Splits the text of a file, in UTF-8. Lines may end as on any system; empty lines and those that begin with # or %
 /// are passed over; cells may be quoted (RFC 4180). Cells are separated by tabs, semicolons, commas or blanks,

@@ -408,6 +408,12 @@ std::string_view name_of(Measured kind) noexcept {
     return "force-time";
 }
 
+std::optional<Measured> measured_by_name(std::string_view name) noexcept {
+    for (const Measured kind : {Measured::restitution, Measured::force_indentation, Measured::force_time})
+        if (name_of(kind) == name) return kind;
+    return std::nullopt;
+}
+
 std::size_t FitStudyResult::best() const {
     const auto less = [](const LawFit& a, const LawFit& b) { return a.result.aicc < b.result.aicc; };
     return static_cast<std::size_t>(std::min_element(fits.begin(), fits.end(), less) - fits.begin());

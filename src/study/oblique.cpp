@@ -326,21 +326,26 @@ Place place_of(ContactParameters& contact, std::string_view key) {
     if (law == "friction") place = find_in(contact.friction, rest);
     if (place) return *place;
 
-    std::vector<std::string> known;
-    const auto list = [&](std::string_view prefix, const auto& any) {
-        std::visit(
-            [&](const auto& l) {
-                for (const auto& parameter : l.parameters())
-                    known.push_back(fmt::format("{}.{}", prefix, parameter.key));
-            },
-            any);
-    };
-    list("normal", contact.normal);
-    list("friction", contact.friction);
-    throw InvalidInput(fmt::format("'{}' is no parameter of these laws; there are {}", key, fmt::join(known, ", ")));
+    throw InvalidInput(
+        fmt::format("'{}' is no parameter of these laws; there are {}", key, fmt::join(parameter_keys(contact), ", ")));
 }
 
 }  // namespace
+
+std::vector<std::string> parameter_keys(const ContactParameters& contact) {
+    std::vector<std::string> keys;
+    const auto add = [&keys](std::string_view kind, const auto& any) {
+        std::visit(
+            [&](const auto& law) {
+                for (const auto& parameter : law.parameters())
+                    keys.push_back(fmt::format("{}.{}", kind, parameter.key));
+            },
+            any);
+    };
+    add("normal", contact.normal);
+    add("friction", contact.friction);
+    return keys;
+}
 
 std::span<const ObliqueObservable> oblique_observables() {
     static const std::vector<ObliqueObservable> all = [] {

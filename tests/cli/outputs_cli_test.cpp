@@ -15,22 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string ball = R"([time]
-end = 0.15
-sample = 1e-3
-[solver]
-tolerance = 1e-8
-[body]
-mass = "154 g"
-inertia = "solid-sphere"
-[[body.spheres]]
-radius = "1.65 cm"
-[body.initial]
-position = [0, 0, 0.10]
-[contact.normal]
-law = "hertz"
-stiffness = 8.5e6
-)";
+const std::string ball = elastic_ball("0.15", "1e-3", "1e-8");
 const std::string rig = R"([rig]
 end = 1
 load = [{ shape = "constant", value = 10 }]
@@ -187,9 +172,7 @@ TEST_F(OutputsCli, EveryCommandAsksWhetherItsOutputCanBeWrittenBeforeItRuns) {
 }
 
 TEST_F(OutputsCli, SeveralOutputsAppearTogetherOrNotAtAll) {
-    std::string fine = ball;
-    fine.replace(fine.find("1e-3"), 4, "2e-5");
-    folder.write("a.toml", fine);
+    folder.write("a.toml", elastic_ball("0.15", "2e-5", "1e-8"));
     const std::string words = "run a.toml -q -o a.nc --csv tables";
     ASSERT_EQ(here(words).exit_code, 0);
     const auto size = fs::file_size(folder / "a.nc");

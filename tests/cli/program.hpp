@@ -46,6 +46,22 @@ protected:
     }
 };
 
+/// A scenario: a ball that falls 10 cm onto elastic ground. Times in seconds.
+inline std::string elastic_ball(const std::string& end, const std::string& sample, const std::string& tolerance) {
+    return "[time]\nend = " + end + "\nsample = " + sample + "\n[solver]\ntolerance = " + tolerance + R"(
+[body]
+mass = "154 g"
+inertia = "solid-sphere"
+[[body.spheres]]
+radius = "1.65 cm"
+[body.initial]
+position = [0, 0, 0.10]
+[contact.normal]
+law = "hertz"
+stiffness = 8.5e6
+)";
+}
+
 /// The values of one column of a table in JSON.
 inline std::vector<double> column(const Json& columns, const std::string& name, const std::string& series = "") {
     for (const Json& c : columns) {

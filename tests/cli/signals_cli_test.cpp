@@ -108,22 +108,7 @@ TEST_F(SignalsCli, ASignalThatWasIgnoredStaysSo) {
 }
 
 TEST_F(SignalsCli, WritingIsInterruptedToo) {
-    folder.write("a.toml", R"([time]
-end = 0.5
-sample = 1e-6
-[solver]
-tolerance = 1e-6
-[body]
-mass = "154 g"
-inertia = "solid-sphere"
-[[body.spheres]]
-radius = "1.65 cm"
-[body.initial]
-position = [0, 0, 0.10]
-[contact.normal]
-law = "hertz"
-stiffness = 8.5e6
-)");
+    folder.write("a.toml", elastic_ball("0.5", "1e-6", "1e-6"));
     folder.write("a.nc", "older");
     // The run itself is short: most of these come while tables or NetCDF are being written.
     for (const auto delay : {300ms, 600ms, 900ms, 1200ms}) {

@@ -23,6 +23,8 @@ enum class Measured {
     force_time,         ///< F_n against t
 };
 [[nodiscard]] std::string_view name_of(Measured kind) noexcept;
+/// The kind that has this name; nothing where none has.
+[[nodiscard]] std::optional<Measured> measured_by_name(std::string_view name) noexcept;
 
 /// Measurements. All columns have the same length; those that are optional may be empty.
 struct FitData {

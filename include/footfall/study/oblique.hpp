@@ -133,6 +133,9 @@ struct ObliqueFit {
     std::vector<double> model;  ///< the observable under these laws, one for each approach
 };
 
+/// The parameters of these laws as fit_oblique calls them: "normal.stiffness", "friction.coefficient".
+[[nodiscard]] std::vector<std::string> parameter_keys(const ContactParameters& contact);
+
 /// Fits parameters of the laws, such as "friction.coefficient" and "friction.stiffness", to a measured curve by least
 /// squares, from the values in `start`, which must be > 0. Throws InvalidInput where an observable or a parameter is
 /// unknown, and what oblique_impact and fit_least_squares throw.
