@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 
-layers="math material law body energy simulate study io"
+layers="math solve material law body energy simulate study io"
 
 find include/footfall src \( -name '*.hpp' -o -name '*.cpp' -o -name '*.in' \) | sort | xargs awk -v layers="$layers" '
     BEGIN {

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "footfall/simulate/budget.hpp"
-#include "footfall/simulate/guard_search.hpp"
-#include "footfall/simulate/method.hpp"
+#include "footfall/solve/first_zero.hpp"
+#include "footfall/solve/method.hpp"
 #include "study/driven_contact.hpp"
 #include "study/swing.hpp"
 #include "study/timeline.hpp"
@@ -284,7 +284,7 @@ private:
             dense = true;
         };
         DrivenState scratch_rate = y_;
-        const auto value_of = [&](int guard) {
+        const auto course_of = [&](int guard) {
             return [this, guard, &scratch_rate](double theta) {
                 DrivenGuards g;
                 contact_->evaluate(method_.at(theta), scratch_rate, &g);
@@ -292,7 +292,7 @@ private:
             };
         };
         const auto look = [&](int guard, double at_start, bool armed) {
-            const auto value = value_of(guard);
+            const auto value = course_of(guard);
             const double theta = first_zero<double>(value, armed ? at_start : 0.0);
             if (theta < 0 || (first && first.theta <= theta)) return;
             const double d = 1e-6, before = std::max(theta - d, 0.0), after = std::min(theta + d, 1.0);

@@ -11,21 +11,13 @@
 #include "footfall/law/any_rate_friction.hpp"
 #include "footfall/law/contact_law.hpp"
 #include "footfall/math/dual.hpp"
+#include "footfall/math/value_of.hpp"
 
 namespace footfall {
 namespace {
 
 using Slope = Dual<double, 8>;
 using Along = Dual<double, 1>;
-
-template <class S>
-double plain(const S& x) {
-    if constexpr (std::is_same_v<S, double>) {
-        return x;
-    } else {
-        return x.value;
-    }
-}
 
 /// The normal law of a rig; under a prescribed load its spring alone acts.
 template <class S>
@@ -208,7 +200,7 @@ private:
         if constexpr (std::is_same_v<S, double>) {
             return value;
         } else {
-            return S(value) + (theta - S(plain(theta))) * S(rate * now.time_rate);
+            return S(value) + (theta - S(value_of(theta))) * S(rate * now.time_rate);
         }
     }
     template <class S>
@@ -222,7 +214,7 @@ private:
                       Vector2<S>* slip = nullptr) const {
         using L = DrivenLayout;
         const S theta = y[L::theta];
-        const Instant now = timeline_.at(interval_, plain(theta));
+        const Instant now = timeline_.at(interval_, value_of(theta));
         const S g = prescribed(now.time_rate, now.time_curvature / now.time_rate, now, theta);
         const S s = prescribed(now.s, now.s_rate, now, theta);
         const S z_rate = prescribed(now.depth_rate, now.depth_acceleration, now, theta);
@@ -268,9 +260,9 @@ private:
         rate[e + L::pressing_work] = a.normal_force * z_rate * g;
         rate[e + L::dragging_work] = dragging * g;
         if (guards) {
-            guards->clutch = plain(a.guard);
+            guards->clutch = value_of(a.guard);
             const bool looks = contact_.turns && phase_ == Phase::slip && !direction_.isZero(0);
-            guards->turn = looks ? plain(V.x()) * direction_.x() + plain(V.y()) * direction_.y() : 1;
+            guards->turn = looks ? value_of(V.x()) * direction_.x() + value_of(V.y()) * direction_.y() : 1;
         }
         return a;
     }

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "footfall/math/dual.hpp"
+#include "footfall/math/value_of.hpp"
 #include "study/impact_trace.hpp"
 
 namespace footfall {
@@ -18,7 +20,6 @@ namespace {
 using study::Branch;
 using study::ImpactTrace;
 using study::turning_point;
-using study::value_of;
 
 /// How many derivatives one pass carries.
 constexpr int width = 4;

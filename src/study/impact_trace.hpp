@@ -20,16 +20,10 @@
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include "footfall/law/any_normal.hpp"
-#include "footfall/math/dual.hpp"
-#include "footfall/simulate/dormand_prince_853.hpp"
+#include "footfall/math/value_of.hpp"
+#include "footfall/solve/dormand_prince_853.hpp"
 
 namespace footfall::study {
-
-inline double value_of(double x) noexcept { return x; }
-template <class T, int N>
-double value_of(const Dual<T, N>& x) noexcept {
-    return x.value;
-}
 
 /// Where a function that is `true` at `low` and `false` at `high` turns, to rounding.
 template <class Predicate>

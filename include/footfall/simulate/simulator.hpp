@@ -10,12 +10,12 @@
 
 #include "footfall/simulate/account.hpp"
 #include "footfall/simulate/budget.hpp"
-#include "footfall/simulate/guard_search.hpp"
-#include "footfall/simulate/method.hpp"
 #include "footfall/simulate/peaks.hpp"
 #include "footfall/simulate/recorder.hpp"
 #include "footfall/simulate/scales.hpp"
 #include "footfall/simulate/system.hpp"
+#include "footfall/solve/first_zero.hpp"
+#include "footfall/solve/method.hpp"
 
 namespace footfall {
 

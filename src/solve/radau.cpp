@@ -1,4 +1,4 @@
-#include "footfall/simulate/radau.hpp"
+#include "footfall/solve/radau.hpp"
 
 #include <cmath>
 #include <limits>

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "footfall/simulate/dormand_prince_853.hpp"
-#include "footfall/simulate/radau.hpp"
+#include "footfall/solve/dormand_prince_853.hpp"
+#include "footfall/solve/radau.hpp"
 
 namespace footfall {
 

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "footfall/simulate/dormand_prince_853_table.hpp"
+#include "footfall/solve/dormand_prince_853_table.hpp"
 
 namespace footfall {
 

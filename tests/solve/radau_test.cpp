@@ -1,5 +1,5 @@
 // The implicit method on systems whose solutions are known in closed form.
-#include "footfall/simulate/radau.hpp"
+#include "footfall/solve/radau.hpp"
 
 #include <cmath>
 #include <limits>

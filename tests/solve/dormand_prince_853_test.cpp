@@ -1,5 +1,5 @@
 // The explicit method against Butcher's theory: the order conditions of every rooted tree, and its stability.
-#include "footfall/simulate/dormand_prince_853.hpp"
+#include "footfall/solve/dormand_prince_853.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // The coefficients of Dormand and Prince's explicit Runge-Kutta pair 8(5,3) with its dense output of order 7.
 // Facts from Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), section II.5 and
-// their program DOP853. tests/simulate checks the order conditions.
+// their program DOP853. tests/solve checks the order conditions.
 #pragma once
 
 #include <array>
