@@ -61,7 +61,7 @@ public:
         std::size_t next = 0;
         while (next < times.size() && value_of(times[next]) < 0) ++next;
         const auto visit = [&](const Stepper& step, double h, double end) {
-            const double last = value_of(step.at(S(end), time));
+            const double last = value_of(step.at(end, time));
             for (; next < times.size() && value_of(times[next]) <= last; ++next) {
                 forces[next] = force_at(step, solve(step, h, 0, end, time, times[next]));
             }
@@ -77,7 +77,7 @@ public:
             forces[i] = clamped(law_.template force<0>(S(std::sqrt(depths[i])), S(0)).total());
         }
         const auto fill = [&](const Stepper& step, double h, double from, double to, Branch branch) {
-            const double a = value_of(step.at(S(from), root)), b = value_of(step.at(S(to), root));
+            const double a = value_of(step.at(from, root)), b = value_of(step.at(to, root));
             for (std::size_t i = 0; i < depths.size(); ++i) {
                 const double s = std::sqrt(depths[i]);
                 if (branches[i] != branch || s < std::min(a, b) || s > std::max(a, b)) continue;
@@ -86,11 +86,11 @@ public:
         };
         double separation = 0;
         const auto visit = [&](const Stepper& step, double h, double end) {
-            const auto sinks = [&](double theta) { return value_of(step.at(S(theta), rate)) > 0; };
+            const auto sinks = [&](double theta) { return value_of(step.at(theta, rate)) > 0; };
             const double deepest = !sinks(0) ? 0 : sinks(end) ? end : turning_point(0, end, sinks);
             if (deepest > 0) fill(step, h, 0, deepest, Branch::loading);
             if (deepest < end) fill(step, h, deepest, end, Branch::unloading);
-            separation = value_of(step.at(S(end), root));
+            separation = value_of(step.at(end, root));
         };
         if (!follow(visit, true)) return false;
         for (std::size_t i = 0; i < depths.size(); ++i) {
@@ -129,8 +129,8 @@ private:
             out[rate] = -y[root] * law_.template force<0>(y[root], y[rate]).total() / mass_;
             out[time] = y[root];
         };
-        State weight;
-        weight << S(1 / (tolerance_ * s_scale)), S(1 / (tolerance_ * v)), S(1 / (tolerance_ * s_scale * sigma_scale));
+        typename Stepper::Values weight;
+        weight << 1 / (tolerance_ * s_scale), 1 / (tolerance_ * v), 1 / (tolerance_ * s_scale * sigma_scale);
 
         Stepper step;
         State y;
@@ -138,8 +138,8 @@ private:
         step.begin(f, y);
         double h = 1e-2 * sigma_scale;
         for (int i = 0; i < most_steps; ++i) {
-            step.step(f, S(h));
-            const double error = value_of(step.error(weight));
+            step.step(f, h);
+            const double error = step.error(weight);
             const double factor = error > 0 ? 0.9 * pow(error, -1.0 / Stepper::order) : 5;
             if (!(error <= 1)) {
                 h *= error > 1 ? std::max(0.2, factor) : 0.2;  // a NaN came from a step that was far too long
@@ -151,11 +151,11 @@ private:
             if (dense || ended) step.prepare_dense(f);
             if (ended) {
                 const auto presses_at = [&](double theta) {
-                    return theta <= 0 || presses(step.at(S(theta), root), step.at(S(theta), rate));
+                    return theta <= 0 || presses(step.at(theta, root), step.at(theta, rate));
                 };
                 const double end = turning_point(0, 1, presses_at);
                 visit(step, h, end);
-                return -step.at(S(end), rate);
+                return -step.at(end, rate);
             }
             visit(step, h, 1.0);
             const State end = step.end();
@@ -169,7 +169,7 @@ private:
     /// value `wanted`, with its derivatives: one step of Newton's method in dual numbers.
     [[nodiscard]] S solve(const Stepper& step, double h, double from, double to, Eigen::Index component,
                           const S& wanted) const {
-        const auto excess = [&](double theta) { return value_of(step.at(S(theta), component)) - value_of(wanted); };
+        const auto excess = [&](double theta) { return value_of(step.at(theta, component)) - value_of(wanted); };
         const double first = excess(from), last = excess(to);
         double theta = std::abs(first) < std::abs(last) ? from : to;
         if (first * last < 0) {
@@ -178,9 +178,9 @@ private:
                                                                    boost::math::tools::eps_tolerance<double>(50), most);
             theta = (bracket.first + bracket.second) / 2;
         }
-        const S at_theta = step.at(S(theta), component);
+        const S at_theta = step.at(theta, component);
         const double slope =
-            h * (component == time ? value_of(step.at(S(theta), root)) : 0.5 * value_of(step.at(S(theta), rate)));
+            h * (component == time ? value_of(step.at(theta, root)) : 0.5 * value_of(step.at(theta, rate)));
         const S place = S(theta) - (at_theta - wanted) / S(slope);
         using std::isfinite;
         return isfinite(place) && std::abs(value_of(place) - theta) < 1e-6 ? place : S(theta);

@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <utility>
 
 #include <Eigen/Core>
 
+#include "footfall/math/value_of.hpp"
 #include "footfall/solve/dormand_prince_853_table.hpp"
 
 namespace footfall {
@@ -21,6 +23,9 @@ template <class StateVector, int Motion = StateVector::RowsAtCompileTime>
 class DormandPrince853 {
 public:
     using S = typename StateVector::Scalar;
+    /// What the method decides on: step sizes, weights and errors.
+    using Value = ValueOf<S>;
+    using Values = ValuesOf<StateVector>;
     static constexpr int order = 8;
     /// Evaluations of a step, of `finish`, and of `prepare_dense`.
     static constexpr int stages = dormand_prince_853_table::stages;
@@ -38,7 +43,7 @@ public:
 
     /// Takes a step of size h from the start.
     template <class F>
-    void step(F&& f, const S& h) {
+    void step(F&& f, const Value& h) {
         h_ = h;
         y1_ = y0_;
         [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -48,21 +53,21 @@ public:
     }
 
     /// The local error of the step in units of what `weight` allows: a step with at most 1 is good.
-    [[nodiscard]] S error(const StateVector& weight) const {
+    [[nodiscard]] Value error(const Values& weight) const {
         using std::abs, std::sqrt;
         constexpr auto fifth = [] { return dormand_prince_853_table::error5; };
         constexpr auto third = [] { return dormand_prince_853_table::error3; };
         constexpr auto all = std::make_index_sequence<stages>{};
-        StateVector fives = weight, threes = weight;
+        Values fives = weight, threes = weight;
         for (Eigen::Index c = 0; c < y0_.size(); ++c) {
-            fives[c] *= weighted(fifth, c, all);
-            threes[c] *= weighted(third, c, all);
+            fives[c] *= weighted<Value>(fifth, c, all);
+            threes[c] *= weighted<Value>(third, c, all);
         }
         // Where a component is not a number, neither is the error.
-        const S five = fives.abs().template maxCoeff<Eigen::PropagateNaN>();
-        const S three = threes.abs().template maxCoeff<Eigen::PropagateNaN>();
-        if (five == S(0)) return S(0);
-        return abs(h_) * five * five / sqrt(five * five + S(0.01) * three * three);
+        const Value five = fives.abs().template maxCoeff<Eigen::PropagateNaN>();
+        const Value three = threes.abs().template maxCoeff<Eigen::PropagateNaN>();
+        if (five == Value(0)) return Value(0);
+        return abs(h_) * five * five / sqrt(five * five + Value(0.01) * three * three);
     }
 
     /// Evaluates the right-hand side at the step's end.
@@ -91,23 +96,27 @@ public:
         const StateVector dy = y1_ - y0_;
         dense_[0] = dy;
         dense_[1] = h_ * k_[0] - dy;
-        dense_[2] = S(2) * dy - h_ * (k_[stages] + k_[0]);
+        dense_[2] = Value(2) * dy - h_ * (k_[stages] + k_[0]);
         [&]<std::size_t... R>(std::index_sequence<R...>) {
             (combine<R>(dense_[R + 3]), ...);
         }(std::make_index_sequence<4>{});
     }
 
-    /// The state at y(start + theta h), 0 <= theta <= 1, to order 7.
-    [[nodiscard]] StateVector at(const S& theta) const {
-        const S rest = S(1) - theta;
+    /// The state at y(start + theta h), 0 <= theta <= 1, to order 7; theta is a value, or moves with the inputs too.
+    template <class Theta>
+    [[nodiscard]] StateVector at(const Theta& fraction) const {
+        const auto theta = as_fraction(fraction);
+        const auto rest = Value(1) - theta;
         StateVector y = dense_[6] * theta;
         for (std::size_t i = 6; i-- > 0;) y = (y + dense_[i]) * (i % 2 == 0 ? theta : rest);
         return y0_ + y;
     }
 
     /// One component of `at`.
-    [[nodiscard]] S at(const S& theta, Eigen::Index c) const {
-        const S rest = S(1) - theta;
+    template <class Theta>
+    [[nodiscard]] S at(const Theta& fraction, Eigen::Index c) const {
+        const auto theta = as_fraction(fraction);
+        const auto rest = Value(1) - theta;
         S y = dense_[6][c] * theta;
         for (std::size_t i = 6; i-- > 0;) y = (y + dense_[i][c]) * (i % 2 == 0 ? theta : rest);
         return y0_[c] + y;
@@ -116,25 +125,44 @@ public:
 private:
     [[nodiscard]] constexpr Eigen::Index motion() const noexcept { return Motion == Eigen::Dynamic ? motion_ : Motion; }
 
+    template <class Theta>
+    [[nodiscard]] static auto as_fraction(const Theta& theta) {
+        if constexpr (std::same_as<Theta, S>) {
+            return theta;
+        } else {
+            return Value(theta);
+        }
+    }
+
     // Sum over the stages whose coefficient is not zero, for one component: the zeros cost nothing. `Row` is the type
-    // of a function that returns the coefficients, so that they are known at compile time.
-    template <class Row, std::size_t... J>
-    [[nodiscard, gnu::always_inline]] S weighted(Row, Eigen::Index c, std::index_sequence<J...>) const {
+    // of a function that returns the coefficients, so that they are known at compile time. T: S, or Value for the
+    // values.
+    template <class T, class Row, std::size_t... J>
+    [[nodiscard, gnu::always_inline]] T weighted(Row, Eigen::Index c, std::index_sequence<J...>) const {
         constexpr auto row = Row{}();
-        S sum(0);
+        T sum(0);
         (
             [&] {
-                if constexpr (row[J] != 0) sum += S(row[J]) * k_[J][c];
+                if constexpr (row[J] != 0) sum += Value(row[J]) * part<T>(k_[J][c]);
             }(),
             ...);
         return sum;
+    }
+
+    template <class T>
+    [[nodiscard]] static decltype(auto) part(const S& k) {
+        if constexpr (std::same_as<T, S>) {
+            return (k);
+        } else {
+            return value_of(k);
+        }
     }
 
     template <std::size_t Stage>
     void stage_state(StateVector& y, Eigen::Index components) const {
         constexpr auto row = [] { return dormand_prince_853_table::a[Stage]; };
         for (Eigen::Index c = 0; c < components; ++c)
-            y[c] = y0_[c] + h_ * weighted(row, c, std::make_index_sequence<Stage>{});
+            y[c] = y0_[c] + h_ * weighted<S>(row, c, std::make_index_sequence<Stage>{});
     }
 
     template <std::size_t Row>
@@ -142,12 +170,12 @@ private:
         constexpr auto row = [] { return dormand_prince_853_table::dense[Row]; };
         y.resizeLike(y0_);
         for (Eigen::Index c = 0; c < y0_.size(); ++c)
-            y[c] = h_ * weighted(row, c, std::make_index_sequence<dormand_prince_853_table::dense_stages>{});
+            y[c] = h_ * weighted<S>(row, c, std::make_index_sequence<dormand_prince_853_table::dense_stages>{});
     }
 
     Eigen::Index motion_;
     StateVector y0_, y1_;
-    S h_{0};
+    Value h_{0};
     std::array<StateVector, dormand_prince_853_table::dense_stages> k_;
     std::array<StateVector, 7> dense_;
 };

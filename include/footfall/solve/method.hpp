@@ -5,17 +5,22 @@
 #include <cmath>
 #include <utility>
 
+#include "footfall/math/value_of.hpp"
 #include "footfall/solve/dormand_prince_853.hpp"
 #include "footfall/solve/radau.hpp"
 
 namespace footfall {
 
 /// Takes steps with the method that suits the equations, and chooses their size. `F(y, rate, look)` is the right-hand
-/// side, `J(y, matrix)` its Jacobian for the first `Motion` components, on which alone it depends.
+/// side, `J(values, matrix)` its Jacobian for the first `Motion` components, on which alone it depends, at the values
+/// of y.
 template <class StateVector, int Motion, class F, class J>
 class Method {
 public:
     using S = typename StateVector::Scalar;
+    /// What the method decides on: step sizes, weights and errors.
+    using Value = ValueOf<S>;
+    using Values = ValuesOf<StateVector>;
     using Vector = typename RadauIIA<S>::Vector;
     using Matrix = typename RadauIIA<S>::Matrix;
     /// Evaluations of an explicit step.
@@ -40,7 +45,7 @@ public:
         steps_ = 0;
     }
 
-    void step(const S& h, const StateVector& weight) {
+    void step(const Value& h, const Values& weight) {
         h_ = h;
         if (stiff_) {
             implicit_.step(h, weight);
@@ -52,7 +57,7 @@ public:
     }
 
     /// The step's local error in units of what is allowed.
-    [[nodiscard]] S error(const StateVector& weight) const {
+    [[nodiscard]] Value error(const Values& weight) const {
         return stiff_ ? implicit_.error() : explicit_.error(weight);
     }
 
@@ -66,7 +71,7 @@ public:
     }
 
     /// The step is taken and no phase has changed: the next starts at `end`, its end, possibly corrected.
-    void advance(const StateVector& end, const StateVector& weight) {
+    void advance(const StateVector& end, const Values& weight) {
         start_ = end;
         if (stiff_) {
             implicit_.advance(end);
@@ -80,15 +85,17 @@ public:
     void prepare_dense() {
         if (!stiff_) explicit_.prepare_dense(f_);
     }
-    [[nodiscard]] StateVector at(const S& theta) const {
+    template <class Theta>
+    [[nodiscard]] StateVector at(const Theta& theta) const {
         return stiff_ ? StateVector(implicit_.at(theta)) : explicit_.at(theta);
     }
-    [[nodiscard]] S at(const S& theta, Eigen::Index c) const {
+    template <class Theta>
+    [[nodiscard]] S at(const Theta& theta, Eigen::Index c) const {
         return stiff_ ? implicit_.at(theta, c) : explicit_.at(theta, c);
     }
 
     /// Of the last step, over sigma.
-    [[nodiscard]] const S& size() const noexcept { return h_; }
+    [[nodiscard]] const Value& size() const noexcept { return h_; }
     [[nodiscard]] const StateVector& start() const noexcept { return start_; }
     [[nodiscard]] const StateVector& end() const noexcept { return end_; }
     [[nodiscard]] StateVector start_rate() const {
@@ -104,7 +111,7 @@ public:
 
     /// After a refused step: whether the implicit method has failed to converge so often that the explicit one takes
     /// over.
-    [[nodiscard]] bool gives_up(const S& error) {
+    [[nodiscard]] bool gives_up(const Value& error) {
         using std::isfinite;
         constexpr int often = 8;
         failures_ = stiff_ && !isfinite(error) ? failures_ + 1 : 0;
@@ -116,27 +123,27 @@ public:
 
     /// The factor to the next step size that a step's error suggests: proportional-integral control, which keeps the
     /// size from swinging where stability limits it (Hairer & Wanner, section IV.2).
-    [[nodiscard]] S growth(const S& error, bool refused) {
+    [[nodiscard]] Value growth(const Value& error, bool refused) {
         using std::isfinite, std::pow;
-        if (!isfinite(error)) return S(0.25);
-        const S exponent =
-            S(1) / S(stiff_ ? RadauIIA<S>::estimate_order + 1 : DormandPrince853<StateVector, Motion>::order);
-        const S seen = std::max(error, S(1e-6));
-        S factor = S(0.9);
-        if (error > S(1)) {
+        if (!isfinite(error)) return Value(0.25);
+        const Value exponent =
+            Value(1) / Value(stiff_ ? RadauIIA<S>::estimate_order + 1 : DormandPrince853<StateVector, Motion>::order);
+        const Value seen = std::max(error, Value(1e-6));
+        Value factor = Value(0.9);
+        if (error > Value(1)) {
             factor *= pow(seen, -exponent);
         } else {
             constexpr double beta = 0.04;
-            factor *= pow(seen, S(0.75 * beta) - exponent) * pow(last_error_, S(beta));
+            factor *= pow(seen, Value(0.75 * beta) - exponent) * pow(last_error_, Value(beta));
             last_error_ = seen;
         }
-        return std::clamp<S>(factor, S(0.2), refused ? S(1) : S(6));
+        return std::clamp<Value>(factor, Value(0.2), refused ? Value(1) : Value(6));
     }
 
 private:
     // The explicit method gives way once its steps are at the border of its stability, where accuracy would allow
     // larger ones; the implicit one where its steps do not pay for their price.
-    void reconsider(const StateVector& weight) {
+    void reconsider(const Values& weight) {
         constexpr int look = 256;     // steps between looks
         constexpr int price = 50;     // of an implicit step, in explicit ones
         constexpr double border = 4;  // of h |lambda|: the stability region reaches to about 6
@@ -144,11 +151,11 @@ private:
         if (!stiff_) {
             if (steps_ < look * patience_) return;
             steps_ = 0;
-            if (h_ * fastest_rate(weight) < S(border)) return;
+            if (h_ * fastest_rate(weight) < Value(border)) return;
             stiff_ = true;
             explicit_step_ = h_;
             implicit_.begin(start_);
-        } else if (steps_ > 6 && h_ < S(price) * explicit_step_) {
+        } else if (steps_ > 6 && h_ < Value(price) * explicit_step_) {
             leave_implicit();
         }
     }
@@ -161,23 +168,23 @@ private:
     }
 
     // The spectral radius of the Jacobian, about: the mean growth of a vector under it.
-    [[nodiscard]] S fastest_rate(const StateVector& weight) {
-        jacobian_(start_, J_);
+    [[nodiscard]] Value fastest_rate(const Values& weight) {
+        jacobian_(values_of(start_), J_);
         const auto n = J_.rows();
         const auto w = weight.head(n).matrix();
         const Matrix scaled = w.asDiagonal() * J_ * w.cwiseInverse().asDiagonal();
-        Eigen::Matrix<S, Eigen::Dynamic, 1> v = Eigen::Matrix<S, Eigen::Dynamic, 1>::LinSpaced(n, S(1), S(2));
+        ColumnVector<Value> v = ColumnVector<Value>::LinSpaced(n, Value(1), Value(2));
         constexpr int settle = 8, measure = 8;
-        S growth(1);
+        Value growth(1);
         for (int k = 0; k < settle + measure; ++k) {
             v = (scaled * v).eval();
-            const S size = v.norm();
-            if (!(size > S(0))) return S(0);
+            const Value size = v.norm();
+            if (!(size > Value(0))) return Value(0);
             v /= size;
             if (k >= settle) growth *= size;
         }
         using std::pow;
-        return pow(growth, S(1) / S(measure));
+        return pow(growth, Value(1) / Value(measure));
     }
 
     void call(const Vector& y, Vector& rate) {
@@ -193,12 +200,12 @@ private:
     StateVector state_, rate_, start_, end_;
     DormandPrince853<StateVector, Motion> explicit_;
     RadauIIA<S> implicit_;
-    S h_{0}, last_error_{1};
+    Value h_{0}, last_error_{1};
     bool stiff_ = false;
     int failures_ = 0;  // of the implicit method in a row
     int steps_ = 0;     // since the last look
     int patience_ = 1;  // looks are this much rarer, after implicit steps that did not pay
-    S explicit_step_{0};
+    Value explicit_step_{0};
 };
 
 }  // namespace footfall
