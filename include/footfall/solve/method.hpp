@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <utility>
 
 #include "footfall/math/value_of.hpp"
@@ -11,10 +12,14 @@
 
 namespace footfall {
 
+/// For `Method`: the product of Jacobian and vector is formed with the whole Jacobian.
+struct ByJacobian {};
+
 /// Takes steps with the method that suits the equations, and chooses their size. `F(y, rate, look)` is the right-hand
 /// side, `J(values, matrix)` its Jacobian for the first `Motion` components, on which alone it depends, at the values
-/// of y.
-template <class StateVector, int Motion, class F, class J>
+/// of y. `D(values, v)`, where it is given, returns this Jacobian times v, which is one derivative along v: the look
+/// for stiffness, which comes in every run, then does without the n x n numbers.
+template <class StateVector, int Motion, class F, class J, class D = ByJacobian>
 class Method {
 public:
     using S = typename StateVector::Scalar;
@@ -26,9 +31,11 @@ public:
     /// Evaluations of an explicit step.
     static constexpr int stages = DormandPrince853<StateVector, Motion>::stages;
 
-    Method(F f, J jacobian, int motion)
+    Method(F f, J jacobian, int motion, D product = {})
         : f_(std::move(f)),
           jacobian_(jacobian),
+          product_(std::move(product)),
+          motion_(motion),
           explicit_(motion),
           implicit_([this](const Vector& y, Vector& rate) { call(y, rate); }, std::move(jacobian), motion) {}
     Method(const Method&) = delete;
@@ -145,7 +152,6 @@ private:
     // larger ones; the implicit one where its steps do not pay for their price.
     void reconsider(const Values& weight) {
         constexpr int look = 256;     // steps between looks
-        constexpr int price = 50;     // of an implicit step, in explicit ones
         constexpr double border = 4;  // of h |lambda|: the stability region reaches to about 6
         ++steps_;
         if (!stiff_) {
@@ -155,9 +161,21 @@ private:
             stiff_ = true;
             explicit_step_ = h_;
             implicit_.begin(start_);
-        } else if (steps_ > 6 && h_ < Value(price) * explicit_step_) {
+        } else if (steps_ > 6 && h_ < price(motion_) * explicit_step_) {
             leave_implicit();
         }
+    }
+
+    // What an implicit step of n components costs, in explicit ones. For small n these are its some 25 evaluations, the
+    // Jacobian and what is done at every change of method. For large n it is the factors of one real and two complex
+    // matrices: 6 n^3 multiplications (a complex one is four) beside the 12 n components that an explicit step
+    // evaluates, each of which costs about as much as 75 multiplications in a large matrix (0.2 ns and 15 ns,
+    // measured).
+    [[nodiscard]] static Value price(int n) {
+        constexpr double small = 50;
+        constexpr double multiplications = 6, evaluated = stages, per_component = 75;
+        const double size = n;
+        return Value(std::max(small, multiplications * size * size / (evaluated * per_component)));
     }
 
     void leave_implicit() {
@@ -169,15 +187,22 @@ private:
 
     // The spectral radius of the Jacobian, about: the mean growth of a vector under it.
     [[nodiscard]] Value fastest_rate(const Values& weight) {
-        jacobian_(values_of(start_), J_);
-        const auto n = J_.rows();
-        const auto w = weight.head(n).matrix();
-        const Matrix scaled = w.asDiagonal() * J_ * w.cwiseInverse().asDiagonal();
+        const auto& y = values_of(start_);
+        if constexpr (by_jacobian) jacobian_(y, J_);
+        const auto times = [&](const ColumnVector<Value>& v) -> ColumnVector<Value> {
+            if constexpr (by_jacobian) {
+                return J_ * v;
+            } else {
+                return product_(y, v);
+            }
+        };
+        const Eigen::Index n = motion_;
+        const ColumnVector<Value> w = weight.head(n).matrix();
         ColumnVector<Value> v = ColumnVector<Value>::LinSpaced(n, Value(1), Value(2));
         constexpr int settle = 8, measure = 8;
         Value growth(1);
         for (int k = 0; k < settle + measure; ++k) {
-            v = (scaled * v).eval();
+            v = w.cwiseProduct(times(v.cwiseQuotient(w)));
             const Value size = v.norm();
             if (!(size > Value(0))) return Value(0);
             v /= size;
@@ -194,8 +219,12 @@ private:
         rate = rate_;
     }
 
+    static constexpr bool by_jacobian = std::same_as<D, ByJacobian>;
+
     F f_;
     J jacobian_;
+    D product_;
+    int motion_;
     Matrix J_;
     StateVector state_, rate_, start_, end_;
     DormandPrince853<StateVector, Motion> explicit_;
