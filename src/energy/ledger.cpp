@@ -1,12 +1,17 @@
 #include "footfall/energy/ledger.hpp"
 
-#include <cmath>
-
 namespace footfall {
 
+double Ledger::total() const noexcept {
+    const double body = sum_of(*this, body_channels, ChannelKind::held);
+    return body + contact.stored() + contact.unpaid() + contact.dissipated() - contact.worked();
+}
+
 double Ledger::magnitude() const noexcept {
-    return std::abs(kinetic) + std::abs(potential) + contact.stored() + contact.dissipated() +
-           std::abs(contact.stiffness_change);
+    double sum = size_of(*this, body_channels, ChannelKind::held);
+    for (const ChannelKind kind : {ChannelKind::held, ChannelKind::taken, ChannelKind::unpaid, ChannelKind::worked})
+        sum += size_of(contact, contact_channels, kind);
+    return sum;
 }
 
 }  // namespace footfall

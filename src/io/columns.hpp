@@ -6,7 +6,9 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
+#include "footfall/energy/ledger.hpp"
 #include "footfall/simulate/run.hpp"
 
 namespace footfall::columns {
@@ -78,32 +80,26 @@ inline constexpr std::array contact{
                             [](const ContactSnapshot& c, double* out) { put(c.bristle, out); }},
 };
 
-inline constexpr std::array contact_energy{
-    Column<ContactEnergy>{"normal_spring", "J", "energy held by the normal spring", Shape::scalar,
-                          [](const ContactEnergy& e, double* out) { *out = e.normal_spring; }},
-    Column<ContactEnergy>{"tangential_spring", "J", "energy held by the tangential spring", Shape::scalar,
-                          [](const ContactEnergy& e, double* out) { *out = e.tangential_spring; }},
-    Column<ContactEnergy>{"normal_damper", "J", "energy taken by the normal damper", Shape::scalar,
-                          [](const ContactEnergy& e, double* out) { *out = e.normal_damper; }},
-    Column<ContactEnergy>{"tangential_damper", "J", "energy taken by the tangential damper", Shape::scalar,
-                          [](const ContactEnergy& e, double* out) { *out = e.tangential_damper; }},
-    Column<ContactEnergy>{"clutch", "J", "energy taken by the clutch", Shape::scalar,
-                          [](const ContactEnergy& e, double* out) { *out = e.clutch; }},
-    Column<ContactEnergy>{"stiffness_change", "J",
-                          "energy taken by the changing tangential stiffness; negative: made by it", Shape::scalar,
-                          [](const ContactEnergy& e, double* out) { *out = e.stiffness_change; }},
-    Column<ContactEnergy>{"tangential_spring_paper", "J",
-                          "Azad & Featherstone 2010, (33): tangential_spring + stiffness_change", Shape::scalar,
-                          [](const ContactEnergy& e, double* out) { *out = e.tangential_spring_paper(); }},
-};
+template <const auto& channels, std::size_t i, class Of>
+void read_channel(const Of& energy, double* out) {
+    *out = energy.*channels[i].member;
+}
+
+/// The energies of a contact: its channels, and the sums that stand behind them.
+inline constexpr auto contact_energy = []<std::size_t... i, std::size_t... k>(std::index_sequence<i...>,
+                                                                              std::index_sequence<k...>) {
+    return std::array{
+        Column<ContactEnergy>{contact_channels[i].name, contact_channels[i].unit, contact_channels[i].description,
+                              Shape::scalar, &read_channel<contact_channels, i, ContactEnergy>}...,
+        Column<ContactEnergy>{contact_sums[k].name, contact_sums[k].unit, contact_sums[k].description, Shape::scalar,
+                              [](const ContactEnergy& e, double* out) { *out = (e.*contact_sums[k].value)(); }}...};
+}(std::make_index_sequence<contact_channels.size()>(), std::make_index_sequence<contact_sums.size()>());
 
 /// Of the whole ledger; the sums of `contact_energy` over the spheres stand beside them.
-inline constexpr std::array body_energy{
-    Column<Ledger>{"kinetic", "J", "kinetic energy", Shape::scalar,
-                   [](const Ledger& l, double* out) { *out = l.kinetic; }},
-    Column<Ledger>{"potential", "J", "potential energy, zero at the world's origin", Shape::scalar,
-                   [](const Ledger& l, double* out) { *out = l.potential; }},
-};
+inline constexpr auto body_energy = []<std::size_t... i>(std::index_sequence<i...>) {
+    return std::array{Column<Ledger>{body_channels[i].name, body_channels[i].unit, body_channels[i].brief,
+                                     Shape::scalar, &read_channel<body_channels, i, Ledger>}...};
+}(std::make_index_sequence<body_channels.size()>());
 
 inline constexpr std::array impact{
     Column<Impact>{"touchdown", "s", "time of touchdown", Shape::scalar,

@@ -1,6 +1,9 @@
 // A run as one JSON object.
+#include <string>
+
 #include <nlohmann/json.hpp>
 
+#include "footfall/energy/ledger.hpp"
 #include "footfall/io/output.hpp"
 #include "footfall/io/printable.hpp"
 #include "footfall/version.hpp"
@@ -39,19 +42,13 @@ Json of(const Impact& impact) {
 
 Json energy(const Run& run) {
     const Ledger& ledger = run.final.ledger;
-    const ContactEnergy& contact = ledger.contact;
-    return {{"initial", run.initial.ledger.total()},
-            {"kinetic", ledger.kinetic},
-            {"potential", ledger.potential},
-            {"normal_spring", contact.normal_spring},
-            {"tangential_spring", contact.tangential_spring},
-            {"normal_damper", contact.normal_damper},
-            {"tangential_damper", contact.tangential_damper},
-            {"clutch", contact.clutch},
-            {"stiffness_change", contact.stiffness_change},
-            {"tangential_spring_paper", contact.tangential_spring_paper()},
-            {"residual", run.residual()},
-            {"max_residual", run.max_residual}};
+    Json json{{"initial", run.initial.ledger.total()}};
+    for (const auto& channel : body_channels) json[std::string(channel.name)] = ledger.*channel.member;
+    for (const auto& channel : contact_channels) json[std::string(channel.name)] = ledger.contact.*channel.member;
+    for (const auto& sum : contact_sums) json[std::string(sum.name)] = (ledger.contact.*sum.value)();
+    json["residual"] = run.residual();
+    json["max_residual"] = run.max_residual;
+    return json;
 }
 
 constexpr int indent = 2;

@@ -21,18 +21,10 @@ using text::Align;
 using text::quantity;
 
 Json energy_of(const RigEnergy& energy) {
-    const ContactEnergy& contact = energy.contact;
-    return {{"normal_spring", contact.normal_spring},
-            {"tangential_spring", contact.tangential_spring},
-            {"normal_damper", contact.normal_damper},
-            {"tangential_damper", contact.tangential_damper},
-            {"clutch", contact.clutch},
-            {"stiffness_change", contact.stiffness_change},
-            {"kinetic", energy.kinetic},
-            {"holding_spring", energy.holding_spring},
-            {"holding_damper", energy.holding_damper},
-            {"pressing_work", energy.pressing_work},
-            {"dragging_work", energy.dragging_work}};
+    Json json = Json::object();
+    for (const auto& channel : contact_channels) json[std::string(channel.name)] = energy.contact.*channel.member;
+    for (const auto& channel : rig_channels) json[std::string(channel.name)] = energy.*channel.member;
+    return json;
 }
 
 Json stick_slip_of(const Drive& run) {
@@ -76,11 +68,9 @@ std::string forces_and_energies(const std::vector<RigRun>& runs) {
     for (const RigRun& run : runs) {
         const Drive& d = run.named.drive;
         const RigEnergy &e = d.samples.back().energy, &start = d.samples.front().energy;
-        const auto held = [](const RigEnergy& x) { return x.contact.stored() + x.kinetic + x.holding_spring; };
         table.row({run.named.name, quantity(d.largest_normal_force, "N"), quantity(d.largest_friction_force, "N"),
-                   quantity(e.pressing_work + e.dragging_work, "J"),
-                   quantity(e.contact.dissipated() + e.holding_damper, "J"), quantity(held(e) - held(start), "J"),
-                   quantity(e.contact.stiffness_change, "J"), fmt::format("{:.1e}", d.max_residual)});
+                   quantity(e.worked(), "J"), quantity(e.taken(), "J"), quantity(e.held() - start.held(), "J"),
+                   quantity(e.contact.unpaid(), "J"), fmt::format("{:.1e}", d.max_residual)});
     }
     return table.str();
 }

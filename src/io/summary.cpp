@@ -2,9 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "footfall/energy/ledger.hpp"
 #include "footfall/io/output.hpp"
 #include "footfall/io/printable.hpp"
 #include "footfall/version.hpp"
@@ -286,6 +290,18 @@ std::string final_state(const Snapshot& state) {
 
 // The ledger ---------------------------------------------------------------------------------------------------------
 
+/// The heading of the entries of one kind.
+std::string_view group_of(ChannelKind kind) { return kind == ChannelKind::unpaid ? "law" : name_of(kind); }
+
+/// "tangential spring, W"
+template <class Of>
+std::string words(const Channel<Of>& channel) {
+    std::string said(channel.name);
+    std::replace(said.begin(), said.end(), '_', ' ');
+    if (!channel.symbol.empty()) said += fmt::format(", {}", channel.symbol);
+    return said;
+}
+
 std::string ledger(const Run& run) {
     const Ledger &start = run.initial.ledger, &end = run.final.ledger;
     // Shares are of what there was, unless the zero of the potential makes that a number without meaning.
@@ -309,17 +325,16 @@ std::string ledger(const Run& run) {
 
     Table table({Align::left, Align::left, Align::right, Align::right, Align::unit});
     table.head({"", "", fmt::format("start [{}J]", prefix.symbol), fmt::format("end [{}J]", prefix.symbol), "share"});
-    const auto entry = [&](const char* group, const char* name, double before, double after) {
-        table.row({group, name, amount(before), amount(after), share(after)});
+    const auto entry = [&](std::string_view group, std::string name, double before, double after) {
+        table.row({std::string(group), std::move(name), amount(before), amount(after), share(after)});
     };
-    entry("body", "kinetic", start.kinetic, end.kinetic);
-    entry("", "potential", start.potential, end.potential);
-    entry("held", "normal spring", start.contact.normal_spring, end.contact.normal_spring);
-    entry("", "tangential spring, W", start.contact.tangential_spring, end.contact.tangential_spring);
-    entry("taken", "normal damper", start.contact.normal_damper, end.contact.normal_damper);
-    entry("", "tangential damper", start.contact.tangential_damper, end.contact.tangential_damper);
-    entry("", "clutch", start.contact.clutch, end.contact.clutch);
-    entry("law", "stiffness change, P", start.contact.stiffness_change, end.contact.stiffness_change);
+    std::string_view last_group;
+    const auto entry_of = [&](std::string_view group, const auto& channel, const auto& before, const auto& after) {
+        entry(group == last_group ? "" : group, words(channel), before.*channel.member, after.*channel.member);
+        last_group = group;
+    };
+    for (const auto& channel : body_channels) entry_of("body", channel, start, end);
+    for (const auto& channel : contact_channels) entry_of(group_of(channel.kind), channel, start.contact, end.contact);
     table.rule();
     entry("", "total", start.total(), end.total());
 
@@ -331,11 +346,11 @@ std::string ledger(const Run& run) {
                         run.max_residual, quantity(run.energy_scale, "J"));
     page += fmt::format("  tangential spring as printed in the paper, W + P: {}\n",
                         quantity(end.contact.tangential_spring_paper(), "J"));
-    if (end.contact.stiffness_change < 0) {
+    if (end.contact.unpaid() < 0) {
         const std::string sentence = fmt::format(
             "The tangential law has made {}: body, springs and losses together hold more than was put in "
             "(docs/theory.md, stiffness change).",
-            quantity(-end.contact.stiffness_change, "J"));
+            quantity(-end.contact.unpaid(), "J"));
         page += "\n";
         for (const std::string& line : text::wrap(sentence, page_width)) page += fmt::format("  {}\n", line);
     }

@@ -378,12 +378,8 @@ private:
         RigEnergy& energy = s.energy;
         energy.contact.normal_spring = m.normal_spring;
         energy.contact.tangential_spring = m.tangential_spring;
-        energy.contact.normal_damper = y[e + L::normal_damper];
-        energy.contact.tangential_damper = y[e + L::tangential_damper];
-        energy.contact.clutch = y[e + L::clutch];
-        energy.contact.stiffness_change = y[e + L::stiffness_change];
-        energy.pressing_work = y[e + L::pressing_work];
-        energy.dragging_work = y[e + L::dragging_work];
+        read_integrals(energy.contact, contact_channels, y, e);
+        read_integrals(energy, rig_channels, y, e + static_cast<int>(integral_count(contact_channels)));
         if (rig_.drag == Drag::mass) {
             const HeldMass& h = rig_.mass;
             s.position = pair(L::position);
@@ -392,7 +388,6 @@ private:
             s.holding_force = h.stiffness * stretch + h.damping * (now.support_velocity - s.velocity);
             energy.kinetic = 0.5 * h.mass * s.velocity.squaredNorm();
             energy.holding_spring = 0.5 * h.stiffness * stretch.squaredNorm();
-            energy.holding_damper = y[e + L::holding_damper];
         }
         return s;
     }
@@ -475,15 +470,26 @@ private:
 
 }  // namespace
 
+double RigEnergy::held() const noexcept { return sum_of(*this, rig_channels, ChannelKind::held, contact.stored()); }
+double RigEnergy::taken() const noexcept {
+    return sum_of(*this, rig_channels, ChannelKind::taken, contact.dissipated());
+}
+double RigEnergy::worked() const noexcept { return sum_of(*this, rig_channels, ChannelKind::worked, contact.worked()); }
+
 double RigEnergy::balance() const noexcept {
-    return contact.stored() + contact.dissipated() + contact.stiffness_change + kinetic + holding_spring +
-           holding_damper - pressing_work - dragging_work;
+    double sum = contact.stored() + contact.dissipated() + contact.unpaid() - contact.worked();
+    for (const auto& channel : rig_channels) {
+        const double entry = this->*channel.member;
+        sum += channel.kind == ChannelKind::worked ? -entry : entry;
+    }
+    return sum;
 }
 
 double RigEnergy::magnitude() const noexcept {
-    return std::abs(contact.normal_spring) + std::abs(contact.tangential_spring) + std::abs(contact.normal_damper) +
-           std::abs(contact.tangential_damper) + std::abs(contact.clutch) + std::abs(contact.stiffness_change) +
-           kinetic + holding_spring + holding_damper + std::abs(pressing_work) + std::abs(dragging_work);
+    double sum = 0;
+    for (const auto& channel : contact_channels) sum += std::abs(contact.*channel.member);
+    for (const auto& channel : rig_channels) sum += std::abs(this->*channel.member);
+    return sum;
 }
 
 Drive drive(const Rig& rig, const ContactParameters& laws) {

@@ -12,6 +12,17 @@ struct Quantity {
     std::function<double(const RigState&)> of;
 };
 
+const RigEnergy& account(const RigEnergy& energy, const Channel<RigEnergy>& /*of*/) { return energy; }
+const ContactEnergy& account(const RigEnergy& energy, const Channel<ContactEnergy>& /*of*/) { return energy.contact; }
+
+/// An entry of the account: "P, taken by the changing stiffness".
+template <class Of>
+Quantity entry(const Channel<Of>& channel) {
+    const std::string symbol = channel.symbol.empty() ? "" : std::string(channel.symbol) + ", ";
+    return {std::string(channel.name), std::string(channel.unit), symbol + std::string(channel.brief),
+            [&channel](const RigState& s) { return account(s.energy, channel).*channel.member; }};
+}
+
 /// What a run shows beside what is prescribed.
 std::vector<Quantity> quantities(const Rig& rig) {
     using State = RigState;
@@ -37,29 +48,14 @@ std::vector<Quantity> quantities(const Rig& rig) {
                                {"holding_force_x", "N", "of spring and damper, on the mass",
                                 [](const State& s) { return s.holding_force.x(); }},
                                {"holding_force_y", "N", "of spring and damper, on the mass",
-                                [](const State& s) { return s.holding_force.y(); }},
-                               {"kinetic", "J", "energy of the mass", [](const State& s) { return s.energy.kinetic; }},
-                               {"holding_spring", "J", "held by the spring to the support",
-                                [](const State& s) { return s.energy.holding_spring; }},
-                               {"holding_damper", "J", "taken by the damper beside it",
-                                [](const State& s) { return s.energy.holding_damper; }}});
+                                [](const State& s) { return s.holding_force.y(); }}});
     }
-    all.insert(all.end(),
-               {{"normal_spring", "J", "held by the normal spring",
-                 [](const State& s) { return s.energy.contact.normal_spring; }},
-                {"tangential_spring", "J", "W, held by the bristle",
-                 [](const State& s) { return s.energy.contact.tangential_spring; }},
-                {"normal_damper", "J", "taken by the normal damper",
-                 [](const State& s) { return s.energy.contact.normal_damper; }},
-                {"tangential_damper", "J", "taken by the tangential damper",
-                 [](const State& s) { return s.energy.contact.tangential_damper; }},
-                {"clutch", "J", "taken by the clutch", [](const State& s) { return s.energy.contact.clutch; }},
-                {"stiffness_change", "J", "P, taken by the changing stiffness",
-                 [](const State& s) { return s.energy.contact.stiffness_change; }},
-                {"pressing_work", "J", "done by the drive along the normal",
-                 [](const State& s) { return s.energy.pressing_work; }},
-                {"dragging_work", "J", "done by the drive in the plane",
-                 [](const State& s) { return s.energy.dragging_work; }}});
+    // What holds the mass is there where there is one; what the drive has done stands behind the contact.
+    for (const Channel<RigEnergy>& channel : rig_channels)
+        if (channel.kind != ChannelKind::worked && rig.drag == Drag::mass) all.push_back(entry(channel));
+    for (const Channel<ContactEnergy>& channel : contact_channels) all.push_back(entry(channel));
+    for (const Channel<RigEnergy>& channel : rig_channels)
+        if (channel.kind == ChannelKind::worked) all.push_back(entry(channel));
     return all;
 }
 

@@ -139,8 +139,8 @@ ObliqueImpact oblique_impact(const ObliqueSphere& sphere, const Approach& approa
     o.in = approach;
     o.radius = sphere.radius;
     o.peak_normal_force = impact.peak_normal_force;
-    o.dissipated = (energy.normal_damper + energy.tangential_damper + energy.clutch) / kinetic;
-    o.stiffness_change = energy.stiffness_change / kinetic;
+    o.dissipated = energy.dissipated() / kinetic;
+    for (const auto& channel : contact_channels) o.energy.*channel.member = energy.*channel.member / kinetic;
     o.residual = result.max_residual;
     o.history = phases_of(result, after.time);
     if (end == nullptr) {
@@ -222,9 +222,6 @@ constexpr std::array course{
     Quantity{"peak_force", "N", "largest normal force", [](const I& i) { return i.peak_normal_force; }},
     Quantity{"dissipated", "1", "energy lost in dampers and clutch, over the kinetic energy before",
              [](const I& i) { return i.dissipated; }, false},
-    Quantity{"stiffness_change", "1", "P over the kinetic energy before; where < 0, the law has made energy",
-             [](const I& i) { return i.stiffness_change; }, false},
-    Quantity{"residual", "1", "largest residual of the ledger", [](const I& i) { return i.residual; }, false},
 };
 
 }  // namespace
@@ -257,6 +254,13 @@ Table oblique_table(std::span<const ObliqueImpact> impacts, std::optional<double
         }
     }
     add_all(course);
+    for (const auto& channel : contact_channels) {
+        if (channel.kind != ChannelKind::unpaid) continue;
+        const std::string description =
+            fmt::format("{} over the kinetic energy before; where < 0, the law has made energy", channel.symbol);
+        add(channel.name, "1", description, [&channel](const I& i) { return i.energy.*channel.member; });
+    }
+    add("residual", "1", "largest residual of the ledger", [](const I& i) { return i.residual; });
     return table;
 }
 

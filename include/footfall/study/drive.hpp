@@ -1,6 +1,7 @@
 // What a rig measures: one contact along its paths, and every joule that goes in.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,10 +25,27 @@ struct RigEnergy {
     double pressing_work = 0;   ///< done by the drive along the normal: the integral of F_n zdot dt
     double dragging_work = 0;   ///< done by the drive in the plane: on the contact, or on mass, support and belt
 
+    // Over the contact and what holds the mass.
+    [[nodiscard]] double held() const noexcept;
+    [[nodiscard]] double taken() const noexcept;
+    [[nodiscard]] double worked() const noexcept;
     /// What is held and has been taken, with P, less what the drive has done: constant.
     [[nodiscard]] double balance() const noexcept;
     /// The size of the account: its entries without their signs, summed.
     [[nodiscard]] double magnitude() const noexcept;
+};
+
+/// The rig's own entries, in the order of every output; they stand behind those of the contact.
+inline constexpr std::array rig_channels{
+    Channel<RigEnergy>{"kinetic", "", "J", "energy of the mass", ChannelKind::held, &RigEnergy::kinetic},
+    Channel<RigEnergy>{"holding_spring", "", "J", "held by the spring to the support", ChannelKind::held,
+                       &RigEnergy::holding_spring},
+    Channel<RigEnergy>{"holding_damper", "", "J", "taken by the damper beside it", ChannelKind::taken,
+                       &RigEnergy::holding_damper},
+    Channel<RigEnergy>{"pressing_work", "", "J", "done by the drive along the normal", ChannelKind::worked,
+                       &RigEnergy::pressing_work},
+    Channel<RigEnergy>{"dragging_work", "", "J", "done by the drive in the plane", ChannelKind::worked,
+                       &RigEnergy::dragging_work},
 };
 
 /// A driven contact at one moment; vectors are in the ground's plane.

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "footfall/energy/channels.hpp"
 #include "footfall/law/contact_law.hpp"
 #include "footfall/law/registry.hpp"
 #include "footfall/math/error.hpp"
@@ -67,7 +68,7 @@ struct ObliqueImpact {
     double peak_normal_force = 0;  ///< [N]
     double duration = 0;           ///< from touchdown to the last moment of normal force [s]
     double dissipated = 0;         ///< by dampers and clutch, over the kinetic energy before [1]
-    double stiffness_change = 0;   ///< P over the kinetic energy before [1]: where it is < 0, the law has made energy
+    ContactEnergy energy;          ///< of the contact at the end, over the kinetic energy before [1]
     double residual = 0;           ///< the largest of the ledger [1]
     std::vector<ObliquePhase> history;
 
@@ -80,7 +81,7 @@ struct ObliqueImpact {
     /// e_t = v_x'/v_x of the centre [1]; NaN where v_x = 0. Kharaz, Gorham & Salman 2001.
     [[nodiscard]] double tangential_restitution() const noexcept;
     /// beta = -V'/V of the contact point [1], -1 without friction, 0 where it ends rolling; NaN where V = 0. It leaves
-    /// [-1, 1] only where the law makes energy (`stiffness_change`). Walton & Braun 1986.
+    /// [-1, 1] only where the law makes energy (`energy.unpaid() < 0`). Walton & Braun 1986.
     [[nodiscard]] double contact_restitution() const noexcept;
     /// Between the normal and the velocity of the centre after [rad], < 0 where it goes back.
     [[nodiscard]] double rebound_angle() const noexcept;
