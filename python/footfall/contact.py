@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from footfall import _arguments, _core, laws
+from footfall import _arguments, _channels, _core, laws
 from footfall._values import Compared
 from footfall.errors import InvalidInput
+
+if TYPE_CHECKING:
+    from footfall._core import ResponseChannels
+else:
+    ResponseChannels = object
 
 Floats = npt.NDArray[np.float64]
 
@@ -22,8 +27,11 @@ FLIGHT, STICK, SLIP, RECOVERING = range(4)
 
 
 @dataclass(frozen=True, eq=False)
-class Response(Compared):
+class Response(Compared, ResponseChannels):
     """What contacts do at one moment. Forces act on the body; ``(...)`` is the shape that the arguments share.
+
+    It has an array of shape (...) for each channel of energy: what is held [J], and the power of the others [W], as in
+    ``normal_spring`` and ``clutch_power``.
 
     Tangential vectors have two components, in the ground's plane. Responses are equal where all their arrays are, NaN
     taken as equal to NaN.
@@ -37,18 +45,16 @@ class Response(Compared):
     """F_f [N], shape (..., 2)."""
     bristle_rate: Floats
     """du/dt [m/s], shape (..., 2); of a friction law with internal states their rates, shape (..., law.states)."""
-    normal_spring: Floats
-    """Energy stored in the normal spring [J], shape (...)."""
-    tangential_spring: Floats
-    """Energy stored in the bristle [J], shape (...)."""
-    normal_damper_power: Floats
-    """Dissipated [W], shape (...)."""
-    tangential_damper_power: Floats
-    """Dissipated [W], shape (...)."""
-    clutch_power: Floats
-    """Dissipated [W], shape (...)."""
-    stiffness_change_power: Floats
-    """What the changing tangential stiffness takes with no force paying for it [W], shape (...); negative: it gives."""
+    if TYPE_CHECKING:
+        # Type checkers have the channels from ResponseChannels, and the arrays of a call from evaluate().
+        def __init__(self, *arrays: npt.NDArray[Any], **named: npt.NDArray[Any]) -> None: ...
+    else:
+        __annotations__.update({channel.response: "Floats" for channel in _channels.TABLE})
+
+
+_channels.list_in_docstring(
+    Response, lambda channel: f"{channel.response} [{'J' if channel.kind == 'held' else 'W'}]: {channel.description}"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -311,7 +317,7 @@ class ContactLaw:
         flat, shape = self._flatten(depth, depth_rate, slip_velocity, bristle, phase)
         states = self.states
         if out is None:
-            force, friction, rate, *rest = _allocate(shape, (None, 2, states, *[None] * 6))
+            force, friction, rate, *rest = _allocate(shape, (None, 2, states, *[None] * len(_channels.TABLE)))
             out = Response(np.empty(shape, np.int8), force, friction, rate, *rest)
         self._law.evaluate(*flat, *_flat_outputs(out, shape, states))
         return out

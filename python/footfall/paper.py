@@ -22,7 +22,8 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
-from footfall import _arguments, studies
+from footfall import _arguments, _channels, studies
+from footfall._channels import Channel
 from footfall.results import Run, run
 from footfall.scenario import Scenario, shipped_scenarios
 
@@ -196,7 +197,11 @@ def off_line(speed: Floats, e: Floats) -> float:
 
 def dissipated(data: xr.Dataset) -> Floats:
     """All that dampers and clutch have taken [J], (16), (28) and (29)."""
-    return np.asarray((data["energy_normal_damper"] + data["energy_tangential_damper"] + data["energy_clutch"]).values)
+    return np.sum([data[f"energy_{channel.name}"].values for channel in _of_kind(data, "taken")], axis=0)
+
+
+def _of_kind(data: xr.Dataset, kind: str) -> list[Channel]:
+    return [channel for channel in _channels.of_dataset(data) if channel.kind == kind]
 
 
 def clutch_as_printed(data: xr.Dataset) -> float:
@@ -749,7 +754,7 @@ def _rolling_energies(whole: Run) -> Canvas:
     parts = (
         ("(33) as printed", "energy_tangential_spring_paper"),
         ("held by the spring", "energy_tangential_spring"),
-        ("changing stiffness", "energy_stiffness_change"),
+        *((channel.label, f"energy_{channel.name}") for channel in _of_kind(data, "unpaid")),
     )
     for (label, name), (color, dashes) in zip(parts, plot.CURVES):
         small.plot(data["time"].values, 1e3 * data[name].values, color=color, linestyle=dashes, label=label)
@@ -763,7 +768,7 @@ def _rolling_energies(whole: Run) -> Canvas:
 def figure_16(runs: Runs) -> Figure:
     data = runs.rolling.dataset
     printed = data["energy_tangential_spring_paper"].values
-    made = -float(data["energy_stiffness_change"][-1])
+    made = -sum(float(data[f"energy_{channel.name}"][-1]) for channel in _of_kind(data, "unpaid"))
     total = float(data["energy_total"][0])
     clutch = data["energy_clutch"].values
     bounce = runs.first_rolling_bounce.dataset
@@ -796,8 +801,8 @@ def figure_16(runs: Runs) -> Figure:
                 "What is dissipated never comes back (15).",
                 "2.3 and 3.1",
                 all(
-                    _never_falls(data[f"energy_{name}"].values, 1e-15)
-                    for name in ("normal_damper", "tangential_damper", "clutch")
+                    _never_falls(data[f"energy_{channel.name}"].values, 1e-15)
+                    for channel in _of_kind(data, "taken")
                 ),
                 f"Normal damper {1e3 * float(data['energy_normal_damper'][-1]):.3f} mJ, tangential damper "
                 f"{1e3 * float(data['energy_tangential_damper'][-1]):.3f} mJ, clutch {1e3 * clutch[-1]:.3f} mJ in the "

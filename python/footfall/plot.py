@@ -13,6 +13,7 @@ Matplotlib is needed: ``pip install 'footfall[plot]'``.
 
 from __future__ import annotations
 
+import itertools
 import math
 import os
 from collections.abc import Callable, Iterator, Sequence
@@ -23,7 +24,8 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
-from footfall import _arguments
+from footfall import _arguments, _channels
+from footfall._channels import Channel
 from footfall.errors import InvalidInput
 from footfall.results import Run
 
@@ -56,17 +58,22 @@ CURVES: tuple[tuple[str, Any], ...] = (
 #: What the phases of a contact are shaded with.
 PHASE_SHADES = {"stick": "#FBE3B3", "slip": "#CFE6F5", "pressing": "#CFE6F5", "recovering": "#E4E4E4"}
 
+_CHANNEL_COLORS = (VERMILLION, ORANGE, YELLOW, PURPLE, GREEN, BLACK, GREY)
+
+
+def _stack(channels: Sequence[Channel]) -> tuple[tuple[str, str, str], ...]:
+    """The parts of the energy, what comes back above what does not: name in the dataset, label, colour."""
+    ordered = sorted(channels, key=lambda channel: channel.kind == "held")
+    colored = zip(ordered, itertools.cycle(_CHANNEL_COLORS))
+    return (
+        *((channel.name, channel.label, color) for channel, color in colored),
+        ("potential", "potential", SKY),
+        ("kinetic", "kinetic", BLUE),
+    )
+
+
 #: The parts of the energy in the order in which they are stacked: name in the dataset, label, colour.
-ENERGIES: tuple[tuple[str, str, str], ...] = (
-    ("normal_damper", "normal damper", VERMILLION),
-    ("tangential_damper", "tangential damper", ORANGE),
-    ("clutch", "clutch", YELLOW),
-    ("stiffness_change", "changing stiffness", PURPLE),
-    ("normal_spring", "normal spring", GREEN),
-    ("tangential_spring", "tangential spring", BLACK),
-    ("potential", "potential", SKY),
-    ("kinetic", "kinetic", BLUE),
-)
+ENERGIES: tuple[tuple[str, str, str], ...] = _stack(_channels.TABLE)
 
 #: Settings for a printed page; ``with plt.rc_context(plot.STYLE): ...``
 STYLE: Any = {
@@ -435,11 +442,16 @@ def energy(axes: Axes, run: Run, *, window: Window | None = None) -> Axes:
     _, data = _samples(run, window)
     times = _time_label(axes, data["time"].values, 0.0)
     factor, prefix = _scale(data["energy_total"].values)
-    parts = {name: data[f"energy_{name}"].values * factor for name, _, _ in ENERGIES}
+    channels = _channels.of_dataset(data)
+    stack = _stack(channels)
+    parts = {name: data[f"energy_{name}"].values * factor for name, _, _ in stack}
+    for channel in channels:
+        if channel.kind == "worked":  # the others have it
+            parts[channel.name] = -parts[channel.name]
     base = sum((np.minimum(part, 0) for part in parts.values()), np.zeros_like(times))
     visible = 1e-9 * max(float(np.max(np.abs(part))) for part in parts.values())
     top, below = base.copy(), np.zeros_like(times)
-    for name, label, color in ENERGIES:
+    for name, label, color in stack:
         part = parts[name]
         if np.any(part > visible):
             upper = top + np.maximum(part, 0)

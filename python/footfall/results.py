@@ -6,8 +6,8 @@ import dataclasses
 import math
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, make_dataclass
+from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,13 +15,16 @@ import numpy as np
 import numpy.typing as npt
 import xarray as xr
 
-from footfall import _arguments
+from footfall import _arguments, _channels
 from footfall._files import read_netcdf, written_whole
 from footfall._values import Compared
 from footfall.errors import InvalidInput
 
 if TYPE_CHECKING:
+    from footfall._core import EnergyChannels
     from footfall.scenario import Scenario
+else:
+    EnergyChannels = object
 
 Floats = npt.NDArray[np.float64]
 
@@ -105,28 +108,21 @@ class Impact:
 
 
 @dataclass(frozen=True)
-class Energy:
-    """The account of energy at the end of a run [J]; its course is in the dataset's ``energy_...``."""
+class Energy(EnergyChannels):
+    """The account of energy at the end of a run [J]; its course is in the dataset's ``energy_...``.
+
+    It has an attribute for each channel of energy of the contacts: ``normal_spring``, ``clutch`` and so on.
+    """
 
     initial: float
     """Total at the start."""
     kinetic: float
     potential: float
     """Zero at the world's origin."""
-    normal_spring: float
-    """Held."""
-    tangential_spring: float
-    """Held: W, (1/2) K_t sqrt(z) |u|^2 for the paper's law."""
-    normal_damper: float
-    """Taken."""
-    tangential_damper: float
-    """Taken."""
-    clutch: float
-    """Taken."""
-    stiffness_change: float
-    """Taken by the changing tangential stiffness; negative: the law has made that much energy."""
+    if not TYPE_CHECKING:  # one for each channel; type checkers have them from EnergyChannels
+        __annotations__.update({channel.name: "float" for channel in _channels.TABLE})
     tangential_spring_paper: float
-    """Azad & Featherstone 2010, (33): tangential_spring + stiffness_change."""
+    """Azad & Featherstone 2010, (33): what the tangential spring holds and its changing stiffness takes."""
     total: float
     residual: float
     """(total - initial) / scale."""
@@ -134,6 +130,26 @@ class Energy:
     """The largest residual over all steps, without its sign."""
     scale: float
     """The largest sum of all entries without their signs [J]."""
+
+
+_channels.list_in_docstring(Energy, lambda channel: f"{channel.name}: {channel.description}")
+
+
+def _energy(entries: dict[str, float]) -> Energy:
+    """The account, with what a file has beside the channels of the table."""
+    beside = tuple(name for name in entries if name not in _fields(Energy))
+    return (_energy_with(beside) if beside else Energy)(**entries)
+
+
+@cache
+def _energy_with(names: tuple[str, ...]) -> type[Energy]:
+    return make_dataclass(
+        "Energy",
+        [(name, float) for name in names],
+        bases=(Energy,),
+        namespace={"__reduce__": lambda self: (_energy, (dataclasses.asdict(self),))},
+        frozen=True,
+    )
 
 
 @dataclass(frozen=True)
@@ -253,13 +269,13 @@ class Run:
     def energy(self) -> Energy:
         """Where every joule is at the end, as ``footfall run --json`` has it."""
         data = self._dataset
-        here = {
+        entries = {
             "initial": float(data["energy_total"][0]),
             "max_residual": float(data.attrs["max_residual"]),
             "scale": float(data.attrs["energy_scale"]),
         }
-        rest = {name: float(data[f"energy_{name}"][-1]) for name in _fields(Energy) if name not in here}
-        return Energy(**here, **rest)
+        names = [*_fields(Energy), *(channel.name for channel in _channels.of_dataset(data))]
+        return _energy(entries | {name: float(data[f"energy_{name}"][-1]) for name in names if name not in entries})
 
     @cached_property
     def cost(self) -> Cost:

@@ -25,6 +25,8 @@ class OutOfMemory : public std::runtime_error {
 void bind_errors(nb::module_& module);
 /// A class for every registered law, in the submodule `laws`.
 void bind_laws(nb::module_& module);
+/// The channels of energy, in the order of every output.
+void bind_channels(nb::module_& module);
 /// The contact law over arrays.
 void bind_contact(nb::module_& module);
 void bind_scenario(nb::module_& module);

@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -20,6 +20,8 @@
 #include <nanobind/stl/variant.h>
 
 #include "bind.hpp"
+#include "channels.hpp"
+#include "footfall/energy/channels.hpp"
 #include "footfall/law/any_normal.hpp"
 #include "footfall/law/any_rate_friction.hpp"
 #include "footfall/law/bristle_step.hpp"
@@ -76,7 +78,7 @@ Block readable(const char* name, const Array<const Value>& array, std::size_t co
 
 /// What is written must share memory with nothing else. The one exception is a phase that is read where the next is
 /// written, in a loop that feeds it back: each contact's is read before it is written.
-void check_apart(std::initializer_list<Block> blocks) {
+void check_apart(std::span<const Block> blocks) {
     for (const Block& out : blocks) {
         if (!out.written) continue;
         for (const Block& other : blocks) {
@@ -106,10 +108,12 @@ struct Contacts {
     Column<std::int8_t> phase;  // as it was; laws that decide it themselves do not look
 };
 
+constexpr std::size_t channel_count = contact_channels.size();
+
 struct Responses {
     std::int8_t* phase;
-    double *normal_force, *friction_force, *bristle_rate, *normal_spring, *tangential_spring, *normal_damper_power,
-        *tangential_damper_power, *clutch_power, *stiffness_change_power;
+    double *normal_force, *friction_force, *bristle_rate;
+    std::array<double*, channel_count> channels;  ///< in the order of contact_channels
 };
 
 struct Steps {
@@ -133,10 +137,8 @@ inline void put_nan(const Responses& out, std::size_t states, std::size_t i) noe
     out.phase[i] = static_cast<std::int8_t>(Phase::flight);
     std::fill_n(out.friction_force + 2 * i, 2, nan);
     std::fill_n(out.bristle_rate + states * i, states, nan);
-    for (double* column : {out.normal_force, out.normal_spring, out.tangential_spring, out.normal_damper_power,
-                           out.tangential_damper_power, out.clutch_power, out.stiffness_change_power}) {
-        column[i] = nan;
-    }
+    out.normal_force[i] = nan;
+    for (double* column : out.channels) column[i] = nan;
 }
 
 inline void put_nan(const Steps& out, std::size_t states, std::size_t i) noexcept {
@@ -158,12 +160,7 @@ inline void put(const ContactResponse<double>& r, const Responses& out, std::siz
     out.phase[i] = static_cast<std::int8_t>(r.phase);
     out.normal_force[i] = r.normal_force;
     put(r.friction_force, out.friction_force + 2 * i);
-    out.normal_spring[i] = r.normal_spring;
-    out.tangential_spring[i] = r.tangential_spring;
-    out.normal_damper_power[i] = r.normal_damper_power;
-    out.tangential_damper_power[i] = r.tangential_damper_power;
-    out.clutch_power[i] = r.clutch_power;
-    out.stiffness_change_power[i] = r.stiffness_change_power;
+    for (std::size_t k = 0; k < channel_count; ++k) out.channels[k][i] = r.*contact_channels[k].response;
 }
 
 /// Lets Ctrl-C end long work, now and then.
@@ -338,6 +335,58 @@ private:
     NormalLaw given_;  // as it was before the impact began
 };
 
+Contacts contacts_of(const Law& law, const Input& depth, const Input& depth_rate, const Input& slip_velocity,
+                     const Input& bristle, const Array<const std::int8_t>& phase) {
+    return {{depth, 1}, {depth_rate, 1}, {slip_velocity, 2}, {bristle, law.width()}, {phase, 1}};
+}
+
+// The channels of energy --------------------------------------------------------------------------------------------
+
+/// With "out." before it, for messages.
+const char* output_name(std::size_t channel) {
+    static const auto names = [] {
+        std::array<std::string, channel_count> all;
+        for (std::size_t k = 0; k < channel_count; ++k) all[k] = "out." + response_name(contact_channels[k]);
+        return all;
+    }();
+    return names[channel].c_str();
+}
+
+template <class Type, std::size_t>
+using Each = Type;
+
+template <std::size_t... k>
+void bind_evaluate(nb::class_<Law>& law, std::index_sequence<k...> /*channels*/) {
+    law.def(
+        "evaluate",
+        [](const Law& self, const Input& depth, const Input& depth_rate, const Input& slip_velocity,
+           const Input& bristle, const Array<const std::int8_t>& was, const Phases& phase, const Numbers& normal_force,
+           const Numbers& friction_force, const Numbers& bristle_rate, const Each<Numbers, k>&... channels) {
+            const std::size_t count = phase.size(), states = self.width();
+            const std::array blocks{readable("depth", depth, count, 1),
+                                    readable("depth_rate", depth_rate, count, 1),
+                                    readable("slip_velocity", slip_velocity, count, 2),
+                                    readable("bristle", bristle, count, states),
+                                    readable("phase", was, count, 1),
+                                    writable("out.phase", phase, count, 1),
+                                    writable("out.normal_force", normal_force, count, 1),
+                                    writable("out.friction_force", friction_force, count, 2),
+                                    writable("out.bristle_rate", bristle_rate, count, states),
+                                    writable(output_name(k), channels, count, 1)...};
+            check_apart(blocks);
+            const Contacts in = contacts_of(self, depth, depth_rate, slip_velocity, bristle, was);
+            const Responses out{
+                phase.data(), normal_force.data(), friction_force.data(), bristle_rate.data(), {channels.data()...}};
+            const nb::gil_scoped_release free;
+            self.visit([&](const auto& any) { evaluate(any, in, out, count); });
+        },
+        // Nothing is converted: a copy would be written in place of the array.
+        nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
+        nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
+        nb::arg().noconvert(), Each<nb::arg, k>(nb::arg().noconvert())...,
+        nb::sig("def evaluate(self, *arrays: object) -> None"));
+}
+
 }  // namespace
 
 void bind_contact(nb::module_& module) {
@@ -347,75 +396,32 @@ void bind_contact(nb::module_& module) {
     }
     module.attr("PHASES") = nb::tuple(phases);
 
-    const auto contacts_of = [](const Law& law, const Input& depth, const Input& depth_rate, const Input& slip_velocity,
-                                const Input& bristle, const Array<const std::int8_t>& phase) {
-        return Contacts{{depth, 1}, {depth_rate, 1}, {slip_velocity, 2}, {bristle, law.width()}, {phase, 1}};
-    };
-
-    nb::class_<Law>(module, "ContactLaw", "A normal law and a friction law over flat arrays.")
+    nb::class_<Law> contact_law(module, "ContactLaw", "A normal law and a friction law over flat arrays.");
+    contact_law
         .def(nb::init<const NormalLaw&, const FrictionLaw&, std::optional<double>>(), nb::arg("normal"),
              nb::arg("friction"), nb::arg("impact_speed").none())
         .def_prop_ro("normal", &Law::normal)
         .def_prop_ro("friction", &Law::friction)
         .def_prop_ro("states", &Law::states)
         .def(
-            "evaluate",
-            [contacts_of](const Law& self, const Input& depth, const Input& depth_rate, const Input& slip_velocity,
-                          const Input& bristle, const Array<const std::int8_t>& was, const Phases& phase,
-                          const Numbers& normal_force, const Numbers& friction_force, const Numbers& bristle_rate,
-                          const Numbers& normal_spring, const Numbers& tangential_spring,
-                          const Numbers& normal_damper_power, const Numbers& tangential_damper_power,
-                          const Numbers& clutch_power, const Numbers& stiffness_change_power) {
-                const std::size_t count = phase.size(), states = self.width();
-                check_apart({readable("depth", depth, count, 1), readable("depth_rate", depth_rate, count, 1),
-                             readable("slip_velocity", slip_velocity, count, 2),
-                             readable("bristle", bristle, count, states), readable("phase", was, count, 1),
-                             writable("out.phase", phase, count, 1),
-                             writable("out.normal_force", normal_force, count, 1),
-                             writable("out.friction_force", friction_force, count, 2),
-                             writable("out.bristle_rate", bristle_rate, count, states),
-                             writable("out.normal_spring", normal_spring, count, 1),
-                             writable("out.tangential_spring", tangential_spring, count, 1),
-                             writable("out.normal_damper_power", normal_damper_power, count, 1),
-                             writable("out.tangential_damper_power", tangential_damper_power, count, 1),
-                             writable("out.clutch_power", clutch_power, count, 1),
-                             writable("out.stiffness_change_power", stiffness_change_power, count, 1)});
-                const Contacts in = contacts_of(self, depth, depth_rate, slip_velocity, bristle, was);
-                const Responses out{phase.data(),
-                                    normal_force.data(),
-                                    friction_force.data(),
-                                    bristle_rate.data(),
-                                    normal_spring.data(),
-                                    tangential_spring.data(),
-                                    normal_damper_power.data(),
-                                    tangential_damper_power.data(),
-                                    clutch_power.data(),
-                                    stiffness_change_power.data()};
-                const nb::gil_scoped_release free;
-                self.visit([&](const auto& law) { evaluate(law, in, out, count); });
-            },
-            // Nothing is converted: a copy would be written in place of the array.
-            nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
-            nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
-            nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
-            nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
-            nb::sig("def evaluate(self, *arrays: object) -> None"))
-        .def(
             "step",
-            [contacts_of](const Law& self, const Input& depth, const Input& depth_rate, const Input& slip_velocity,
-                          const Input& bristle, const Array<const std::int8_t>& was, double dt, double tolerance,
-                          const Phases& phase, const Numbers& normal_force, const Numbers& friction_force,
-                          const Numbers& new_bristle, const Numbers& tangential_damper, const Numbers& clutch) {
+            [](const Law& self, const Input& depth, const Input& depth_rate, const Input& slip_velocity,
+               const Input& bristle, const Array<const std::int8_t>& was, double dt, double tolerance,
+               const Phases& phase, const Numbers& normal_force, const Numbers& friction_force,
+               const Numbers& new_bristle, const Numbers& tangential_damper, const Numbers& clutch) {
                 const std::size_t count = phase.size(), states = self.width();
-                check_apart({readable("depth", depth, count, 1), readable("depth_rate", depth_rate, count, 1),
-                             readable("slip_velocity", slip_velocity, count, 2),
-                             readable("bristle", bristle, count, states), readable("phase", was, count, 1),
-                             writable("out.phase", phase, count, 1),
-                             writable("out.normal_force", normal_force, count, 1),
-                             writable("out.friction_force", friction_force, count, 2),
-                             writable("out.bristle", new_bristle, count, states),
-                             writable("out.tangential_damper", tangential_damper, count, 1),
-                             writable("out.clutch", clutch, count, 1)});
+                const std::array blocks{readable("depth", depth, count, 1),
+                                        readable("depth_rate", depth_rate, count, 1),
+                                        readable("slip_velocity", slip_velocity, count, 2),
+                                        readable("bristle", bristle, count, states),
+                                        readable("phase", was, count, 1),
+                                        writable("out.phase", phase, count, 1),
+                                        writable("out.normal_force", normal_force, count, 1),
+                                        writable("out.friction_force", friction_force, count, 2),
+                                        writable("out.bristle", new_bristle, count, states),
+                                        writable("out.tangential_damper", tangential_damper, count, 1),
+                                        writable("out.clutch", clutch, count, 1)};
+                check_apart(blocks);
                 const Contacts in = contacts_of(self, depth, depth_rate, slip_velocity, bristle, was);
                 const Steps out{phase.data(),       normal_force.data(),      friction_force.data(),
                                 new_bristle.data(), tangential_damper.data(), clutch.data()};
@@ -426,6 +432,7 @@ void bind_contact(nb::module_& module) {
             nb::arg().noconvert(), nb::arg(), nb::arg(), nb::arg().noconvert(), nb::arg().noconvert(),
             nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
             nb::sig("def step(self, *arrays: object) -> None"));
+    bind_evaluate(contact_law, std::make_index_sequence<channel_count>());
 }
 
 }  // namespace footfall::python

@@ -7,6 +7,7 @@ NB_MODULE(_core, module) {
     module.attr("__version__") = nanobind::str(footfall::version.data(), footfall::version.size());
     footfall::python::bind_errors(module);
     footfall::python::bind_laws(module);
+    footfall::python::bind_channels(module);
     footfall::python::bind_contact(module);
     footfall::python::bind_scenario(module);
     footfall::python::bind_run(module);
