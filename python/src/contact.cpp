@@ -288,6 +288,7 @@ class Law {
 public:
     Law(const NormalLaw& normal, const FrictionLaw& friction, std::optional<double> impact_speed)
         : normal_(normal), friction_(friction), given_(normal) {
+        std::visit([](auto& law) { prepare(law); }, normal_);
         if (!impact_speed) return;
         std::visit(
             [&](auto& law) {
@@ -332,7 +333,7 @@ public:
 private:
     NormalLaw normal_;
     FrictionLaw friction_;
-    NormalLaw given_;  // as it was before the impact began
+    NormalLaw given_;  // as it was before it was put to use
 };
 
 Contacts contacts_of(const Law& law, const Input& depth, const Input& depth_rate, const Input& slip_velocity,

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "footfall/law/any_normal.hpp"
 #include "footfall/law/contact_law.hpp"
 #include "footfall/law/registry.hpp"
 #include "math/random_real.hpp"
@@ -65,8 +66,8 @@ private:
 
 inline bool coin() { return *rc::gen::arbitrary<bool>(); }
 
-/// A law with every parameter drawn from its range, zero and the values left out among them; one that asks for it is
-/// told of an impact.
+/// A law with every parameter drawn from its range, zero and the values left out among them, put to use: prepared, and
+/// told of an impact where it asks for that.
 template <class Law>
 Law random_law() {
     Law law{};
@@ -84,6 +85,7 @@ Law random_law() {
         }
         law.*parameter.member = value;
     }
+    prepare(law);
     if constexpr (requires { law.begin_impact(1.0); }) law.begin_impact(*decades(1e-4, 1e1));
     return law;
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "footfall/law/any_normal.hpp"
 #include "footfall/law/registry.hpp"
 #include "footfall/math/dual.hpp"
 #include "law/laws.hpp"
@@ -207,13 +208,56 @@ RC_GTEST_PROP(TsujiNormal, ItsDampingHasTheSlopeOfDifferencesInItsRestitution, (
     RC_ASSERT(near(alpha.gradient[0], slope, 1e-9 * std::abs(slope)));
 }
 
-TEST(TsujiNormal, AnImpactThatHasBegunChangesNothing) {
+TEST(TsujiNormal, PreparingItChangesNothing) {
     TsujiNormal<> law{2e6, 0.2, 0.6};
     const double before = law.force(0.01, 0.5).dissipative;
-    law.begin_impact(3.0);
+    law.prepare();
     EXPECT_EQ(law.force(0.01, 0.5).dissipative, before);
     // alpha sqrt(m k) z^(1/4) zdot with sqrt(m k) = sqrt(4e5), z^(1/4) = 0.1.
     EXPECT_NEAR(before, law.alpha() * std::sqrt(4e5) * 0.1 * 0.5, 1e-13);
+}
+
+/// A number that counts the logarithms taken of it: the damping needs one, and nothing else in the law does.
+struct Counted : Dual<double, 1> {
+    using Dual<double, 1>::Dual;
+    Counted(const Dual<double, 1>& x) : Dual<double, 1>(x) {}
+    inline static int logarithms = 0;
+    friend Counted log(const Counted& x) {
+        ++logarithms;
+        return Counted(log(static_cast<const Dual<double, 1>&>(x)));
+    }
+};
+
+TEST(TsujiNormal, ItsDampingIsComputedOnceHoweverOftenItIsCast) {
+    const AnyNormal<Counted> law(TsujiNormal<Counted>{Counted(2e6), Counted(0.2), Counted(0.6)});
+    EXPECT_EQ(Counted::logarithms, 1);
+    for (int use = 0; use < 5; ++use) {
+        const auto cast = law.cast<Counted>();
+        EXPECT_GT(cast.force(Counted(0.01), Counted(0.5)).dissipative.value, 0);
+        EXPECT_GT(law.load(Counted(0.01), Counted(0.5)).value, 0);
+    }
+    EXPECT_EQ(Counted::logarithms, 1);
+}
+
+TEST(TsujiNormal, ItsPreparedForceHasTheSlopesOfDifferencesInItsParameters) {
+    using D = Dual<double, 3>;
+    const D k = D::variable(2e6, 0), m = D::variable(0.2, 1), e = D::variable(0.6, 2);
+    const AnyNormal<D> law(TsujiNormal<D>{k, m, e});
+    // Over duals of duals, as a Jacobian inside of a derivative is: the slopes are carried along.
+    const D force = law.cast<Dual<D, 1>>().force(Dual<D, 1>(D(0.01)), Dual<D, 1>(D(0.5))).dissipative.value;
+    const auto slope = [&](int parameter) {
+        return static_cast<double>(difference(
+            [&](long double x) {
+                TsujiNormal<long double> at{2e6L, 0.2L, 0.6L};
+                (parameter == 0 ? at.stiffness : parameter == 1 ? at.mass : at.restitution) = x;
+                return at.force(0.01L, 0.5L).dissipative;
+            },
+            parameter == 0   ? 2e6L
+            : parameter == 1 ? 0.2L
+                             : 0.6L));
+    };
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(force.gradient[static_cast<std::size_t>(i)], slope(i), 1e-9 * std::abs(slope(i))) << i;
 }
 
 }  // namespace

@@ -55,11 +55,13 @@ TEST(LawParameters, TheNamesOfTheScenariosStand) {
 
 TEST(LawParameters, EveryMemberIsAParameterOnce) {
     // A law is an aggregate of doubles: as many parameters as fit into it, each with its own key, symbol and place.
-    // What a law keeps of the impact that has begun is one more, and not a parameter.
+    // What a law keeps of its preparation or of the impact that has begun is one more, and not a parameter.
     for_each_law_of_all([](auto law) {
         const auto parameters = law.parameters();
         std::size_t members = std::is_empty_v<decltype(law)> ? 0 : sizeof(law) / sizeof(double);
-        if constexpr (requires { law.begin_impact(1.0); }) --members;
+        if constexpr (
+            requires { law.begin_impact(1.0); } || requires { law.prepare(); })
+            --members;
         EXPECT_EQ(parameters.size(), members) << law.description.name;
         std::set<std::string_view> keys, symbols;
         std::set<const double*> places;

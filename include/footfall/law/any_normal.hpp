@@ -11,7 +11,13 @@
 
 namespace footfall {
 
-/// Any of the registered normal laws, with the members that they share.
+/// Lets a law that is about to be used compute once what follows from its parameters alone, where it has such.
+template <class Law>
+constexpr void prepare(Law& law) noexcept {
+    if constexpr (requires { law.prepare(); }) law.prepare();
+}
+
+/// Any of the registered normal laws, prepared, with the members that they share.
 template <class S = double>
 class AnyNormal {
 public:
@@ -19,7 +25,9 @@ public:
 
     template <class Law>
         requires(!std::is_same_v<std::remove_cvref_t<Law>, AnyNormal>)
-    constexpr AnyNormal(const Law& law) : law_(law) {}
+    constexpr AnyNormal(const Law& law) : AnyNormal(law, AsItIs{}) {
+        std::visit([](auto& held) { prepare(held); }, law_);
+    }
 
     /// f / s^Over before the clamp, s = sqrt(z).
     template <int Over = 0>
@@ -48,10 +56,20 @@ public:
 
     template <class T>
     [[nodiscard]] constexpr AnyNormal<T> cast() const noexcept {
-        return std::visit([](const auto& law) { return AnyNormal<T>(law.template cast<T>()); }, law_);
+        return std::visit(
+            [](const auto& law) { return AnyNormal<T>(law.template cast<T>(), typename AnyNormal<T>::AsItIs{}); },
+            law_);
     }
 
 private:
+    template <class>
+    friend class AnyNormal;
+
+    /// What has been prepared stays so over another scalar.
+    struct AsItIs {};
+    template <class Law>
+    constexpr AnyNormal(const Law& law, AsItIs /*prepared*/) : law_(law) {}
+
     NormalLawOver<S> law_;
 };
 

@@ -34,11 +34,11 @@ struct TsujiNormal {
     S stiffness;    ///< k, normal stiffness [N/m^1.5], > 0. Tsuji et al. 1992.
     S mass;         ///< m, the mass that bounces [kg], > 0. Tsuji et al. 1992.
     S restitution;  ///< e of an impact without gravity, in (0, 1]
-    /// damping() [N s/m^1.25], no parameter: begin_impact keeps it. Below 0 it is computed at every use.
+    /// damping() [N s/m^1.25], no parameter: prepare keeps it. Below 0 it is computed at every use.
     S kept_damping = S(-1);
 
-    /// Computes once what stays the same during an impact. The parameters must not change until the next call.
-    void begin_impact(const S& /*speed*/) noexcept { kept_damping = damping(); }
+    /// Computes once what follows from the parameters. They must not change until the next call.
+    void prepare() noexcept { kept_damping = damping(); }
 
     /// alpha, from e. Tsuji et al. 1992, with the contact ending at zero force.
     [[nodiscard]] S alpha() const noexcept {
@@ -67,10 +67,9 @@ struct TsujiNormal {
     /// Energy in the normal spring [J].
     [[nodiscard]] constexpr S stored_energy(const S& s) const noexcept { return S(2) * stiffness * power<5>(s) / S(5); }
 
-    /// Keeps the parameters alone.
     template <class T>
     [[nodiscard]] constexpr TsujiNormal<T> cast() const noexcept {
-        return {T(stiffness), T(mass), T(restitution)};
+        return {T(stiffness), T(mass), T(restitution), T(kept_damping)};
     }
 
     static constexpr LawDescription description{
