@@ -568,6 +568,30 @@ TEST(SevenParameterFriction, AfterSlidingStaticFrictionBeginsWhereSlidingFrictio
     EXPECT_NEAR(rig.states()[3], 0.01, 1e-4);
 }
 
+// It stops faster than friction remembers: the spring is still stretched when the clutch comes to a stop.
+TEST(SevenParameterFriction, HoldsWhereItTakesHold) {
+    Rig rig(seven);
+    rig.move({0, 0}, 20.0, 10);
+    rig.move({0.03, 0}, 0.1, 20000);
+    const double from = rig.time, stop = 2e-3, dt = 1e-7;
+    const auto V = [&](double t) { return Vector(0.03 * (1 - (t - from) / stop), 0); };
+    while (rig.phase() == Phase::slip && rig.time < from + stop) rig.move(V, dt, 1);
+    ASSERT_EQ(rig.phase(), Phase::stick);
+    ASSERT_LT(rig.time, from + stop - 10 * dt);
+    const double held = rig.pull(), rested = rig.states()[4];
+    while (rig.time < from + stop - dt) {
+        rig.move(V, dt, 1);
+        ASSERT_EQ(rig.phase(), Phase::stick) << rig.time - from;
+        EXPECT_EQ(rig.states()[4], rested);
+    }
+    EXPECT_GT(rig.pull(), held);
+    // Once it stands the rest begins, at the friction that the memory has come to.
+    rig.move({0, 0}, 1e-3, 10);
+    rig.move({-1e-6, 0}, 1e-3, 10);
+    EXPECT_EQ(rig.states()[2], 0);
+    EXPECT_NEAR(rig.states()[4], 1e-3, 1e-5);
+}
+
 TEST(SevenParameterFriction, FrictionLagsBehindTheSpeedByTheMemoryTime) {
     // In small swings about a speed, Stribeck friction is late by atan(omega tau_L), a first-order lag.
     SevenParameterFriction<> law = seven;

@@ -1,7 +1,9 @@
 // Every friction law with internal states in whole runs: the ledger closes, and bodies rest, creep, slide and stop as
 // mechanics says that they must.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -163,6 +165,38 @@ TEST(ResetIntegratorFriction, HoldsAFootOnASlope) {
 
 TEST(ElastoPlasticFriction, HoldsAFootOnASlope) {
     EXPECT_NEAR(crept(ElastoPlasticFriction<>{sigma, 5, 0.5, 0.4, 0.01, 0, 0.7}), 0, 1e-9);
+}
+
+/// The shortest time from a stick to the slip that ends it, of any sphere [s].
+double shortest_stick(const Run& run) {
+    double shortest = std::numeric_limits<double>::infinity();
+    std::vector<double> since(run.final.contacts.size(), -1);
+    for (const Event& event : run.events) {
+        double& held = since[static_cast<std::size_t>(event.sphere)];
+        if (event.kind == EventKind::slip && held >= 0) shortest = std::min(shortest, event.time - held);
+        held = event.kind == EventKind::stick ? event.time : -1;
+    }
+    return shortest;
+}
+
+TEST(SevenParameterFriction, SticksForSomeTimeWheneverItSticks) {
+    constexpr double some_time = 1e-7;
+    for (const double stribeck_velocity : {1e-3, 0.01}) {
+        const FrictionLaw law = SevenParameterFriction<>{sigma, 0.2, 0.1, stribeck_velocity, 1e-3, 0.1, 0};
+        Simulation ball = test::paper_ball(0.03, 0.25, 1e-11), braking = standing_foot(0.3, 1e-10),
+                   stepping = test::heel_first(0.1, 1e-10);
+        ball.initial.velocity = {0.5, -0.2, 0};
+        ball.initial.angular_velocity = {3, 10, 2};
+        braking.initial.velocity = {0.1, 0.03, 0};
+        tilt(braking, std::atan(0.15));
+        for (Simulation* s : {&ball, &braking, &stepping}) {
+            give(*s, law);
+            const auto run = footfall::run(*s);
+            EXPECT_GT(test::count(run, EventKind::stick), 1u);
+            EXPECT_GT(shortest_stick(run), some_time);
+            EXPECT_LE(run.max_residual, 3e-9);
+        }
+    }
 }
 
 // A load that comes and goes lets nothing be stored unseen: P is what the changing load has done to the spring.

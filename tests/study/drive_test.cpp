@@ -396,6 +396,24 @@ TEST(Drive, ClosesTheAccountUnderEveryLaw) {
     }
 }
 
+TEST(Drive, ASevenParameterContactSticksForSomeTimeWheneverItSticks) {
+    for (const double stribeck_velocity : {1e-3, 0.01}) {
+        Rig rig = belt(4, 1, 1000, 2e-3);
+        rig.tolerance = 1e-9;
+        const Drive run =
+            drive(rig, {normal_law, SevenParameterFriction<>{1.346e4, 0.2, 0.1, stribeck_velocity, 1e-3, 0.1, 0.5}});
+        double held = -1;
+        for (const RigEvent& event : run.events) {
+            if (event.kind == EventKind::slip && held >= 0) {
+                EXPECT_GT(event.time - held, 1e-6) << event.time;
+            }
+            held = event.kind == EventKind::stick ? event.time : -1;
+        }
+        EXPECT_GT(count(run, EventKind::stick), 10);
+        EXPECT_LT(run.max_residual, 1e-8);
+    }
+}
+
 TEST(Drive, TurningTheDriveTurnsTheAnswer) {
     const double angle = 0.9;
     const Eigen::Rotation2Dd turn(angle);

@@ -1,11 +1,12 @@
 // The seven-parameter law: a spring before sliding; then Coulomb, viscous and Stribeck friction with memory, and a
 // static friction that grows with the time of rest.
 //
-//   stick:  F_f = -F_n sigma_0 u,                         udot = V,    level = mu_k + f_s
+//   stick:  F_f = -F_n sigma_0 u,                         udot = V,    |u| < level/sigma_0
 //   slip:   F_f = -F_n (sigma_0 u + sigma_2 V_clutch),    |u| = level/sigma_0,
-//           level = mu_k + f_s/(1 + (v_l/v_s)^2),         V_clutch = V - udot = u^ (u^.V - d|u|/dt)
+//                                                         V_clutch = V - udot = u^ (u^.V - d|u|/dt)
 //
-//   f_s = f_a + (f_inf - f_a) t_2/(t_2 + gamma),          tau_L dv_l/dt = |V| - v_l,   u^ = u/|u|
+//   level = mu_k + f_s/(1 + (v_l/v_s)^2),                 tau_L dv_l/dt = |V| - v_l,   u^ = u/|u|
+//   f_s = f_a + (f_inf - f_a) t_2/(t_2 + gamma)
 //
 // States: u (2) [m], v_l (the lagged speed) [m/s], f_a [1], t_2 (the time of rest) [s]. Units: sigma_0 1/m, mu_k and
 // f_inf 1, sigma_2 s/m, v_s m/s, tau_L and gamma s.
@@ -18,8 +19,12 @@
 //
 //  - Frictional memory is a pure delay of the speed by tau_L in the source, which no ordinary differential equation
 //    has. Here it is a first-order lag with the time constant tau_L: the same delay for slow changes.
-//  - It lets go where the spring reaches the level of sticking, and takes hold where the clutch comes to a stop. Then
-//    t_2 = v_l = 0, and f_a is the Stribeck friction of that moment, f_s/(1 + (v_l/v_s)^2). A new contact has not
+//  - It lets go where the spring reaches the level, and takes hold where the clutch comes to a stop. The spring still
+//    stretches then, as fast as the lag lets the level rise, and the lag goes on: forgotten at once, it would leave the
+//    spring at a level that no longer rises, and the clutch would let go in the moment in which it took hold.
+//  - It is at rest from where the spring stops stretching, u^.V = 0. Then t_2 = v_l = 0, and f_a is the Stribeck
+//  friction
+//    of that moment, f_s/(1 + (v_l/v_s)^2): the level is the same, and grows with the rest. A new contact has not
 //    rested: f_a = 0.
 //  - In the plane, and to join the two parts without a jump, the sliding force is that of a spring held on the circle
 //    of radius level/sigma_0, in series with the clutch: in steady sliding it is opposite to V.
@@ -30,6 +35,9 @@
 // It cannot represent a loss before sliding: a body at rest swings on the spring for ever, but for other losses.
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "footfall/law/friction/rate_friction.hpp"
 
 namespace footfall {
@@ -39,6 +47,8 @@ struct SevenParameterFriction {
     using value_type = S;
     static constexpr int states = 5;
     static constexpr Phase first_phase = Phase::stick;
+    /// The speed below which the spring counts as standing, over v_s [1]: far above rounding, far below what tells.
+    static constexpr double resting_share = 1e-9;
 
     S stiffness;             ///< sigma_0, stiffness before sliding over the load [1/m], > 0
     S kinetic_coefficient;   ///< mu_k, Coulomb friction [1], > 0
@@ -52,13 +62,10 @@ struct SevenParameterFriction {
                                           std::span<S> rate) const noexcept {
         const Vector2<S> u = vector_at<S>(x);
         Vector2<S> V_clutch = Vector2<S>::Zero();
-        rate[lagged_speed] = rate[at_hold] = rate[rest] = S(0);
-        if (phase == Phase::slip) {
-            rate[lagged_speed] = lag_rate(V, x);
-            V_clutch = u / length_of(u) * clutch_speed(V, x);
-        } else {
-            rate[rest] = S(1);
-        }
+        rate[at_hold] = S(0);
+        rate[lagged_speed] = at_rest(phase, x) ? S(0) : lag_rate(V, x);
+        rate[rest] = at_rest(phase, x) ? S(1) : S(0);
+        if (phase == Phase::slip) V_clutch = u / length_of(u) * clutch_speed(V, x);
         const Vector2<S> u_rate = V - V_clutch;
         put_vector(rate, 0, u_rate);
         return {-(stiffness * u + viscous * V_clutch), stiffness * u.dot(u_rate), S(0)};
@@ -69,24 +76,28 @@ struct SevenParameterFriction {
     }
 
     /// What the spring bears, over the load [1].
-    [[nodiscard]] S level(Phase phase, FrictionStates<S> x) const noexcept {
-        const S f_s = static_part(x);
-        return kinetic_coefficient + (phase == Phase::slip ? S(f_s / fall(x)) : f_s);
-    }
+    [[nodiscard]] S level(FrictionStates<S> x) const noexcept { return kinetic_coefficient + static_part(x) / fall(x); }
 
+    /// While it sticks a length [m], while it slips a speed [m/s].
     [[nodiscard]] S margin(Phase phase, const Vector2<S>& V, FrictionStates<S> x) const noexcept {
         if (phase == Phase::slip) return clutch_speed(V, x);
-        return level(phase, x) / stiffness - length_of(vector_at<S>(x));
+        const S below_level = below(x);
+        return at_rest(phase, x) ? below_level : std::min(below_level, S(memory_time * stretching(V, x)));
     }
 
-    [[nodiscard]] Phase jump(Phase phase, const Vector2<S>&, std::span<S> x) const noexcept {
+    [[nodiscard]] Phase jump(Phase phase, const Vector2<S>& V, std::span<S> x) const noexcept {
         if (phase == Phase::slip) {
-            x[at_hold] = static_part(x) / fall(x);
-            x[rest] = x[lagged_speed] = S(0);
+            // On the level, but for what the integration has lost, and not beyond it by rounding.
+            constexpr double inside = 1 - 8 * std::numeric_limits<double>::epsilon();
+            put_on_level(x, S(inside));
+            if (stands(V, x)) come_to_rest(x);
             return Phase::stick;
         }
-        const Vector2<S> u = vector_at<S>(x);
-        put_vector(x, 0, Vector2<S>(u * (level(Phase::slip, x) / (stiffness * length_of(u)))));  // to rounding
+        if (!at_rest(phase, x) && stands(V, x)) {
+            come_to_rest(x);
+            return Phase::stick;
+        }
+        put_on_level(x, S(1));
         return Phase::slip;
     }
 
@@ -102,6 +113,9 @@ struct SevenParameterFriction {
                 return static_cast<double>(kinetic_coefficient / stiffness);
         }
     }
+
+    /// A viscous force above the level may push on while the level falls.
+    [[nodiscard]] bool clutch_only_takes() const noexcept { return !(viscous > S(0)); }
 
     template <class T>
     [[nodiscard]] constexpr SevenParameterFriction<T> cast() const noexcept {
@@ -123,7 +137,7 @@ struct SevenParameterFriction {
         .limits = "no loss before sliding, so that a body swings on the spring for ever"};
 
     static constexpr auto parameters() noexcept {
-        using Law = SevenParameterFriction<double>;
+        using Law = SevenParameterFriction<S>;
         return std::array{
             Parameter<Law>{"stiffness", "sigma_0", "1/m", &Law::stiffness, "stiffness before sliding over the load",
                            ""},
@@ -143,6 +157,30 @@ struct SevenParameterFriction {
 private:
     static constexpr std::size_t lagged_speed = 2, at_hold = 3, rest = 4;
 
+    /// Whether it sticks and the lag is over. Before, the lagged speed is above zero; at rest it is none.
+    [[nodiscard]] static bool at_rest(Phase phase, FrictionStates<S> x) noexcept {
+        return phase != Phase::slip && !(x[lagged_speed] > S(0));
+    }
+    void put_on_level(std::span<S> x, const S& share) const noexcept {
+        const Vector2<S> u = vector_at<S>(x);
+        put_vector(x, 0, Vector2<S>(u * (share * level(x) / (stiffness * length_of(u)))));
+    }
+    void come_to_rest(std::span<S> x) const noexcept {
+        x[at_hold] = static_part(x) / fall(x);
+        x[rest] = x[lagged_speed] = S(0);
+    }
+    /// u^.V [m/s].
+    [[nodiscard]] static S stretching(const Vector2<S>& V, FrictionStates<S> x) noexcept {
+        const Vector2<S> u = vector_at<S>(x);
+        return u.dot(V) / length_of(u);
+    }
+    [[nodiscard]] bool stands(const Vector2<S>& V, FrictionStates<S> x) const noexcept {
+        return !(stretching(V, x) > S(resting_share) * stribeck_velocity);
+    }
+    /// By how much the spring is shorter than what the level stretches it to [m].
+    [[nodiscard]] S below(FrictionStates<S> x) const noexcept {
+        return level(x) / stiffness - length_of(vector_at<S>(x));
+    }
     /// f_s.
     [[nodiscard]] S static_part(FrictionStates<S> x) const noexcept {
         return x[at_hold] + (stribeck_coefficient - x[at_hold]) * x[rest] / (x[rest] + rise_time);
@@ -157,11 +195,10 @@ private:
     }
     /// u^.V - d|u|/dt while |u| = level/sigma_0.
     [[nodiscard]] S clutch_speed(const Vector2<S>& V, FrictionStates<S> x) const noexcept {
-        const Vector2<S> u = vector_at<S>(x);
         const S f = fall(x);
         const S level_rate = -static_part(x) / (f * f) * S(2) * x[lagged_speed] * lag_rate(V, x) /
                              (stribeck_velocity * stribeck_velocity);
-        return u.dot(V) / length_of(u) - level_rate / stiffness;
+        return stretching(V, x) - level_rate / stiffness;
     }
 };
 
