@@ -253,8 +253,16 @@ void evaluate(const StatesLaw& law, const Contacts& in, const Responses& out, st
             put_nan(out, states, i);
             continue;
         }
-        const Touch at = touch(law, depth, rate, in.phase.number(i));
-        put(law.respond(at.phase, at.s, rate, V, x, {out.bristle_rate + states * i, states}), out, i);
+        Touch at = touch(law, depth, rate, in.phase.number(i));
+        std::array<double, max_friction_states> jumped{};
+        std::span<const double> now = x;
+        const bool loaded = at.phase == Phase::stick || at.phase == Phase::slip;
+        if (loaded && law.friction.margin(at.phase, V, x) < 0) {  // the phase that is given has ended here
+            std::copy(x.begin(), x.end(), jumped.begin());
+            at.phase = law.friction.jump(at.phase, V, std::span(jumped).first(states));
+            now = std::span(jumped).first(states);
+        }
+        put(law.respond(at.phase, at.s, rate, V, now, {out.bristle_rate + states * i, states}), out, i);
     }
 }
 

@@ -58,6 +58,24 @@ TEST(FrictionStateStep, JumpsWhereTheLawDoes) {
     EXPECT_NEAR(step.mean_friction_force.x(), load * sigma * reach * 0.2, 1e-6 * load * sigma * reach);
 }
 
+// The same spring and end, as the elasto-plastic law without a rise between.
+TEST(FrictionStateStep, ChangesThePhaseWhereAnElastoPlasticBristleGivesWay) {
+    const double sigma = 1e4, mu = 0.4, V = 0.1;
+    const AnyRateFriction<> law(ElastoPlasticFriction<>{sigma, 0, mu, mu, 0.01, 0, 1});
+    std::array<double, 2> x{};
+    const FrictionStateStepper stepper(law, 1e-9);
+    FrictionStateStep step = stepper(Phase::flight, load, {V, 0}, x, dt);
+    EXPECT_EQ(step.phase, Phase::slip);
+    EXPECT_NEAR(step.mean_friction_force.x(), -load * mu * (0.4 * 0.5 + 0.6), 1e-6 * load * mu);
+    EXPECT_NEAR(step.clutch, load * mu * V * 0.6e-3, 1e-6 * load * mu * V * dt);
+    step = stepper(step.phase, load, {-0.1 * V, 0}, x, dt);
+    EXPECT_EQ(step.phase, Phase::stick);
+    EXPECT_NEAR(step.clutch, 0, 1e-12 * load * mu * V * dt);
+    // Where the phase is not told, it follows from the bristle.
+    std::array<double, 2> stretched{mu / sigma, 0};
+    EXPECT_EQ(stepper(Phase::flight, load, {V, 0}, stretched, dt).phase, Phase::slip);
+}
+
 TEST(FrictionStateStep, WorkIsStoredOrTaken) {
     const AnyRateFriction<> law(LuGreFriction<>{.stiffness = 1e4,
                                                 .damping = 10,

@@ -148,6 +148,14 @@ struct RateCase {
         if constexpr (std::is_same_v<Law, SevenParameterFriction<>>)
             for (std::size_t i : {2u, 3u, 4u}) x[i] = std::abs(x[i]);
         if constexpr (std::is_same_v<Law, HaessigFriedlandFriction<>>) x.back() = 7;
+        if constexpr (std::is_same_v<Law, ElastoPlasticFriction<>>) {
+            if (coin()) {  // beyond break-away, and outwards
+                const double u_ss = law.steady(V) / law.stiffness;
+                put_vector<double>(x, 0, V.normalized() * (law.breakaway() + *uniform(0, 1.2) * u_ss));
+                V = Eigen::Rotation2Dd(*uniform(-1.4, 1.4)) * V;
+                phase = Phase::slip;
+            }
+        }
         if constexpr (std::is_same_v<Law, DahlFriction<>>) {
             if (law.coefficient == 0) std::fill(x.begin(), x.end(), 0.0);  // nothing can stretch it
         }
@@ -470,6 +478,40 @@ TEST(ElastoPlasticFriction, IsElasticUpToBreakAwayAndPlasticBeyondIt) {
     EXPECT_NEAR(rig.pull(), 0.999 * 0.7 * 0.3, 1e-12);
     rig.move({1e-3, 0}, 0.5 * breakaway / 1e-3, 100);
     EXPECT_LT(rig.pull(), 1e5 * rig.distance - 1e-4);
+}
+
+TEST(ElastoPlasticFriction, SticksWhereItIsElasticAndSlipsWhereItGivesWay) {
+    Rig rig(elasto_plastic);
+    const double breakaway = 0.7 * 0.3 / 1e5, v = 1e-3;
+    rig.move({v, 0}, 0.999 * breakaway / v, 100);
+    EXPECT_EQ(rig.phase(), Phase::stick);
+    rig.move({v, 0}, 0.002 * breakaway / v, 100);
+    EXPECT_EQ(rig.phase(), Phase::slip);
+    rig.move({v, 0}, 10 * breakaway / v, 5000);  // at u_ss, beyond u_ba
+    EXPECT_EQ(rig.phase(), Phase::slip);
+    const double steady = rig.states()[0];
+    rig.move({-v, 0}, 0.01 * breakaway / v, 100);  // it relaxes: elastic, and still beyond u_ba
+    EXPECT_EQ(rig.phase(), Phase::stick);
+    EXPECT_GT(rig.states()[0], breakaway);
+    EXPECT_NEAR(steady - rig.states()[0], 0.01 * breakaway, 1e-12 * breakaway);
+    rig.move({v, 0}, 1e-6 * breakaway / v, 100);
+    EXPECT_EQ(rig.phase(), Phase::slip);
+}
+
+// With u_ba = u_ss and no Stribeck curve it is Prandtl's element: a spring with an end.
+TEST(ElastoPlasticFriction, WithoutARiseBetweenItIsASpringWithAnEnd) {
+    Rig rig(ElastoPlasticFriction<>{1e5, 0, 0.3, 0.3, 0.01, 0, 1});
+    rig.move({1, 0}, 2.9e-6, 100);
+    EXPECT_NEAR(rig.pull(), 0.29, 1e-13);
+    rig.move({1, 0}, 1e-5, 100);
+    EXPECT_NEAR(rig.pull(), 0.3, 1e-13);
+    EXPECT_EQ(rig.phase(), Phase::slip);
+    rig.move({-1, 0}, 5e-6, 100);
+    EXPECT_NEAR(rig.pull(), -0.2, 1e-13);
+    rig.move({-1, 0}, 1e-5, 100);
+    EXPECT_NEAR(rig.pull(), -0.3, 1e-13);
+    // What slid, 9.9e-6 m there and 9e-6 m back, and what is stored.
+    EXPECT_NEAR(rig.work, 0.3 * (9.9e-6 + 9e-6) + rig.stored(), 1e-15);
 }
 
 TEST(ElastoPlasticFriction, SlidesSteadilyOnLuGresCurve) {

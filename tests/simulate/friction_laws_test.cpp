@@ -199,6 +199,37 @@ TEST(SevenParameterFriction, SticksForSomeTimeWheneverItSticks) {
     }
 }
 
+// The border where the bristle gives way is an event, so it costs no accuracy and no steps where it is sharp.
+TEST(ElastoPlasticFriction, IsAsRightWhereItsBorderIsSharp) {
+    const auto bounced = [](double elastic_share, double static_coefficient, double tolerance) {
+        Simulation s = test::paper_ball(0.03, 0.25, tolerance);
+        s.initial.velocity = {0.5, -0.2, 0};
+        s.initial.angular_velocity = {3, 10, 2};
+        s.options.sample_period = 1e-4;
+        give(s, ElastoPlasticFriction<>{sigma, 5, static_coefficient, 0.2, 0.01, 0.1, elastic_share});
+        return footfall::run(s);
+    };
+    for (const double static_coefficient : {0.2, 0.3}) {
+        const auto usual = bounced(0.7, static_coefficient, 1e-9);
+        for (const double elastic_share : {0.7, 0.99, 1.0}) {
+            const auto run = bounced(elastic_share, static_coefficient, 1e-9),
+                       exact = bounced(elastic_share, static_coefficient, 1e-13);
+            EXPECT_LE(run.cost.steps, 2 * usual.cost.steps) << elastic_share;
+            EXPECT_EQ(run.events.size(), exact.events.size());
+            double largest = 0;
+            for (const Snapshot& shot : exact.samples)
+                largest = std::max(largest, shot.contacts[0].friction_force.norm());
+            ASSERT_EQ(run.samples.size(), exact.samples.size());
+            for (std::size_t k = 0; k < run.samples.size(); ++k) {
+                const Snapshot &a = run.samples[k], &b = exact.samples[k];
+                EXPECT_LE((a.contacts[0].friction_force - b.contacts[0].friction_force).norm(), 1e-6 * largest)
+                    << a.time;
+                EXPECT_LE((a.body.velocity - b.body.velocity).norm(), 1e-8) << a.time;
+            }
+        }
+    }
+}
+
 // A load that comes and goes lets nothing be stored unseen: P is what the changing load has done to the spring.
 TEST_P(FrictionLaws, BookWhatTheChangingLoadDoesToWhatIsStored) {
     Simulation s = test::paper_ball(0.03, 0.1, 1e-11);

@@ -414,6 +414,42 @@ TEST(Drive, ASevenParameterContactSticksForSomeTimeWheneverItSticks) {
     }
 }
 
+// Without a rise of alpha between elastic and plastic, and without a Stribeck curve, it is a spring that ends:
+// Coulomb's loop.
+TEST(Drive, AnElastoPlasticContactWithASharpBorderTakesCoulombsLoop) {
+    const double A = 1e-4, k = 1e5, mu = 0.4, x_b = mu * load / k;
+    Rig rig = pressed(4, 0.5);
+    rig.dragging[0].add(SinePart{A, 1});
+    const Drive run = drive(rig, {normal_law, ElastoPlasticFriction<>{k / load, 0, mu, mu, 1e-3, 0, 1}});
+    EXPECT_NEAR(dissipated(run, 2, 3) / (4 * mu * load * (A - x_b)), 1, 1e-8);
+    EXPECT_NEAR(time_of(run, EventKind::slip), std::asin(x_b / A) / (2 * pi), 1e-9);
+    EXPECT_NEAR(time_of(run, EventKind::stick, 1), 0.25, 1e-8);
+    EXPECT_NEAR(time_of(run, EventKind::slip, 1), 0.25 + std::acos(1 - 2 * x_b / A) / (2 * pi), 1e-9);
+    EXPECT_LT(run.max_residual, 1e-9);
+}
+
+TEST(Drive, AnElastoPlasticContactIsAsRightWhereItsBorderIsSharp) {
+    const auto looped = [](double elastic_share, double static_coefficient, double tolerance) {
+        Rig rig = pressed(1, 1e-2);
+        rig.tolerance = tolerance;
+        rig.dragging[0].add(SinePart{1e-4, 1});
+        rig.dragging[1].add(SinePart{3e-5, 2.3});
+        return drive(rig,
+                     {normal_law, ElastoPlasticFriction<>{1e4, 5, static_coefficient, 0.4, 1e-3, 0.5, elastic_share}});
+    };
+    for (const double static_coefficient : {0.4, 0.6}) {
+        const Drive usual = looped(0.7, static_coefficient, 1e-9);
+        for (const double elastic_share : {0.7, 0.99, 1.0}) {
+            const Drive run = looped(elastic_share, static_coefficient, 1e-9),
+                        exact = looped(elastic_share, static_coefficient, 1e-13);
+            EXPECT_LE(run.cost.steps, 2 * usual.cost.steps) << elastic_share;
+            for (std::size_t i = 0; i < run.samples.size(); ++i)
+                EXPECT_LE((run.samples[i].friction_force - exact.samples[i].friction_force).norm(), 1e-6 * load)
+                    << elastic_share << " " << run.samples[i].time;
+        }
+    }
+}
+
 TEST(Drive, TurningTheDriveTurnsTheAnswer) {
     const double angle = 0.9;
     const Eigen::Rotation2Dd turn(angle);

@@ -14,7 +14,15 @@
 // Choices. In one direction alpha = 0 while the bristle relaxes (u V < 0), else u creeps by alpha |V| u/u_ss; in the
 // plane this is read as alpha (u^.V)_+ u/u_ss, which is the same in one direction, and continuous where V turns across
 // u. u_max = u_ss, as in the source, with LuGre's Stribeck curve g for it. u_ba = beta min(mu_s, mu_k)/sigma_0, so that
-// it stays below u_ss at every speed.
+// it is never above u_ss. Where the two come together (beta = 1) the rise of alpha between them would be a step, which
+// is stiff without end; it is given the width sqrt((u_ss - u_ba)^2 + (w u_ba)^2), w = `narrowest_rise`, up to u_ss, and
+// alpha begins above 0 at u_ba. Steady sliding is the same.
+//
+// Phases. Phase::stick where the bristle is elastic, alpha (u^.V)_+ = 0: below u_ba, or relaxing. Phase::slip where it
+// gives way: beyond u_ba, and stretching. Each is smooth up to its end, where |u| reaches u_ba or u^.V changes its
+// sign. A bristle that slides steadily stays at u_ss, even where that is u_ba: it slips until it relaxes. A body that
+// comes to rest beyond u_ba swings about u^.V = 0 with an amplitude that ends in rounding, so each phase goes on a
+// little beyond it, by `resting_share` of v_s.
 //
 // Stored: w = (1/2) sigma_0 |u|^2. Dissipated over F_n: sigma_1 |udot|^2 in the damper; the rest, as in lugre.hpp, in
 // the clutch. What is said there of its sign and of passivity holds here.
@@ -34,6 +42,12 @@ template <class S = double>
 struct ElastoPlasticFriction {
     using value_type = S;
     static constexpr int states = 2;
+    static constexpr Phase first_phase = Phase::stick;
+    /// The least width of the rise of alpha over u_ba [1]: what it changes in alpha for the usual beta is below 1e-5.
+    static constexpr double narrowest_rise = 1e-3;
+    /// The speed below which the bristle counts as standing, over v_s [1]: far above rounding, and far too small to
+    /// creep by.
+    static constexpr double resting_share = 1e-9;
 
     S stiffness;               ///< sigma_0, stiffness of the bristle over the load [1/m], > 0
     S damping;                 ///< sigma_1, damping of the bristle over the load [s/m], >= 0
@@ -50,22 +64,38 @@ struct ElastoPlasticFriction {
         return elastic_share * std::min(static_coefficient, kinetic_coefficient) / stiffness;
     }
 
-    [[nodiscard]] RateResponse<S> respond(const Vector2<S>& V, FrictionStates<S> x, std::span<S> rate) const noexcept {
+    [[nodiscard]] RateResponse<S> respond(Phase phase, const Vector2<S>& V, FrictionStates<S> x,
+                                          std::span<S> rate) const noexcept {
         const Vector2<S> u = vector_at<S>(x);
-        const S length = length_of(u), outward = u.dot(V);  // |u| (u^.V)
-        const S u_ss = steady(V) / stiffness;
         Vector2<S> u_rate = V;
-        if (length > breakaway() && outward > S(0))
-            u_rate -= u * (plastic_share(length, u_ss) * outward / (length * u_ss));
+        if (phase == Phase::slip) {
+            const S u_ss = steady(V) / stiffness;
+            u_rate -= u * (plastic_share(length_of(u), u_ss) * stretching(V, u) / u_ss);
+        }
         put_vector(rate, 0, u_rate);
         return bristle_response(*this, V, u, u_rate);
     }
 
-    [[nodiscard]] S stored(FrictionStates<S> x) const noexcept {
+    [[nodiscard]] S stored(Phase, FrictionStates<S> x) const noexcept {
         return S(0.5) * stiffness * vector_at<S>(x).squaredNorm();
     }
 
+    /// Over v_s or u_ba [1].
+    [[nodiscard]] S margin(Phase phase, const Vector2<S>& V, FrictionStates<S> x) const noexcept {
+        const Vector2<S> u = vector_at<S>(x);
+        const S speed = stretching(V, u) / stribeck_velocity;
+        if (phase == Phase::slip) return speed + S(resting_share);
+        return std::max(S(S(1) - length_of(u) / breakaway()), S(S(resting_share) - speed));
+    }
+
+    [[nodiscard]] Phase jump(Phase phase, const Vector2<S>&, std::span<S>) const noexcept {
+        return phase == Phase::slip ? Phase::stick : Phase::slip;
+    }
+
     [[nodiscard]] double state_size(int) const noexcept { return static_cast<double>(kinetic_coefficient / stiffness); }
+
+    /// As LuGre's.
+    [[nodiscard]] bool clutch_only_takes() const noexcept { return !(damping > S(0)); }
 
     template <class T>
     [[nodiscard]] constexpr ElastoPlasticFriction<T> cast() const noexcept {
@@ -82,19 +112,26 @@ struct ElastoPlasticFriction {
         .limits = "no pre-sliding loss below the break-away deflection but for sigma_1; not passive for large sigma_1"};
 
     static constexpr auto parameters() noexcept {
-        using Law = ElastoPlasticFriction<double>;
+        using Law = ElastoPlasticFriction<S>;
         return stribeck_bristle_parameters<Law>(Parameter<Law>{"elastic_share", "beta", "1", &Law::elastic_share,
                                                                "break-away deflection over that of steady sliding", "",
                                                                0.7, false, true});
     }
 
 private:
-    /// alpha for |u| > u_ba.
+    /// u^.V [m/s]; 0 for a bristle without a direction.
+    [[nodiscard]] static S stretching(const Vector2<S>& V, const Vector2<S>& u) noexcept {
+        const S length = length_of(u);
+        return length > S(0) ? S(u.dot(V) / length) : S(0);
+    }
+
+    /// alpha beyond u_ba. (1 + sin(pi (|u| - (u_ss + u_ba)/2) / (u_ss - u_ba)))/2 is the cosine from u_ss down.
     [[nodiscard]] S plastic_share(const S& length, const S& u_ss) const noexcept {
-        using std::sin;
+        using std::cos, std::sqrt;
         if (!(length < u_ss)) return S(1);
-        const S u_ba = breakaway();
-        return S(0.5) + S(0.5) * sin(S(std::numbers::pi) * (length - S(0.5) * (u_ss + u_ba)) / (u_ss - u_ba));
+        const S rise = u_ss - breakaway(), least = S(narrowest_rise) * breakaway();
+        const S width = sqrt(rise * rise + least * least);
+        return S(0.5) + S(0.5) * cos(S(std::numbers::pi) * (u_ss - length) / width);
     }
 };
 
