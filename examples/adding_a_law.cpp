@@ -35,7 +35,7 @@ struct ConeNormal {
     static constexpr LawDescription description{
         .name = "cone", .formula = "f = max(k z^2 + d z zdot, 0)", .source = "Sneddon 1965", .limits = "no adhesion"};
     static constexpr auto parameters() noexcept {
-        using Law = ConeNormal<double>;
+        using Law = ConeNormal<S>;
         return std::array{
             Parameter<Law>{"stiffness", "k", "N/m^2", &Law::stiffness, "normal stiffness", ""},
             Parameter<Law>{"damping", "d", "N s/m^2", &Law::damping, "normal damping", "elastic, restitution 1"}};

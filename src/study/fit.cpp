@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -27,32 +25,19 @@ using Derivative = Dual<double, width>;
 
 // Laws with parameters over another scalar ---------------------------------------------------------------------------
 
-/// A law's members as a list: a law is an aggregate of scalars.
-template <class Law>
-constexpr std::size_t member_count = sizeof(Law) / sizeof(typename Law::value_type);
-
-/// The place of a parameter among the law's members.
-template <class Law>
-std::size_t place_of(const Parameter<Law>& parameter) {
-    using Members = std::array<double, member_count<Law>>;
-    Law probe = std::bit_cast<Law>(Members{});
-    probe.*parameter.member = 1;
-    const auto members = std::bit_cast<Members>(probe);
-    return static_cast<std::size_t>(std::find(members.begin(), members.end(), 1.0) - members.begin());
-}
-
-/// The law with the members at `places` replaced.
+/// The law with the parameters of these keys replaced.
 template <class S>
-AnyNormal<S> substitute(const NormalLaw& law, const std::vector<std::size_t>& places, const S* values) {
+AnyNormal<S> substitute(const NormalLaw& law, const std::vector<FitLaw::Free>& free, const S* values) {
     return std::visit(
-        [&]<class Law>(const Law& base) -> AnyNormal<S> {
+        [&](const auto& base) -> AnyNormal<S> {
             auto over = base.template cast<S>();
-            using Over = decltype(over);
-            static_assert(std::is_trivially_copyable_v<Over>);
-            static_assert(member_count<Over> == member_count<Law> && sizeof(Over) == member_count<Over> * sizeof(S));
-            auto members = std::bit_cast<std::array<S, member_count<Over>>>(over);
-            for (std::size_t i = 0; i < places.size(); ++i) members[places[i]] = values[i];
-            return std::bit_cast<Over>(members);
+            const auto parameters = over.parameters();
+            for (std::size_t i = 0; i < free.size(); ++i) {
+                for (const auto& parameter : parameters) {
+                    if (parameter.key == free[i].key) over.*parameter.member = values[i];
+                }
+            }
+            return over;
         },
         law);
 }
@@ -94,9 +79,6 @@ struct Arguments {
 class LawModel {
 public:
     LawModel(const FitStudy& study, const FitLaw& law) : study_(study), law_(law) {
-        for (const FitLaw::Free& f : law.free) {
-            places_.push_back(with_parameter(law.law, f.key, [](const auto& p, const auto&) { return place_of(p); }));
-        }
         arguments_.count = law.free.size();
         if (study.data.kind == Measured::restitution) arguments_.mass = arguments_.count++;
         if (follows_one_impact()) {
@@ -127,7 +109,7 @@ public:
     /// The law's y for each x at the arguments `a`; NaN where it has none.
     template <class S>
     void evaluate(const S* a, std::span<S> y) const {
-        const AnyNormal<S> law = substitute<S>(law_.law, places_, a);
+        const AnyNormal<S> law = substitute<S>(law_.law, law_.free, a);
         const bool followed = study_.data.kind == Measured::restitution ? restitutions(law, a, y)
                               : follows_one_impact()                    ? forces_of_impact(law, a, y)
                                                                         : forces_at_rates(law, y);
@@ -214,7 +196,6 @@ private:
 
     const FitStudy& study_;
     const FitLaw& law_;
-    std::vector<std::size_t> places_;
     Arguments arguments_;
     std::vector<Branch> branches_;
 };

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "footfall/law/registry.hpp"
+#include "footfall/math/dual.hpp"
 
 namespace footfall {
 namespace {
@@ -151,6 +152,30 @@ TEST(LawParameters, CheckNamesThePlaceTheParameterItsValueAndWhatIsAllowed) {
             EXPECT_NE(std::string_view(error.what()).find(part), std::string_view::npos)
                 << part << ": " << error.what();
     }
+}
+
+TEST(LawParameters, CanBeGivenInAnyScalar) {
+    for_each_law_of_all([](auto law) {
+        using D = Dual<double, 1>;
+        auto over = law.template cast<D>();
+        const auto parameters = law.parameters();
+        const auto dual = over.parameters();
+        ASSERT_EQ(dual.size(), parameters.size());
+        for (std::size_t i = 0; i < parameters.size(); ++i) {
+            EXPECT_EQ(dual[i].key, parameters[i].key);
+            EXPECT_EQ(dual[i].unit, parameters[i].unit);
+            over.*dual[i].member = D::variable(1.5 + static_cast<double>(i), 0);
+            EXPECT_EQ((over.*dual[i].member).gradient[0], 1);
+        }
+        // Each has its own place, and it is the place of the same parameter.
+        const auto back = over.template cast<D>();
+        for (std::size_t i = 0; i < parameters.size(); ++i) {
+            EXPECT_EQ((back.*dual[i].member).value, 1.5 + static_cast<double>(i)) << law.description.name;
+            law.*parameters[i].member = 0.25;
+            EXPECT_EQ((law.template cast<D>().*dual[i].member).value, 0.25) << law.description.name;
+            law.*parameters[i].member = 0.5;
+        }
+    });
 }
 
 TEST(LawParameters, CastKeepsEveryParameter) {

@@ -11,13 +11,13 @@
 
 namespace footfall {
 
-/// One parameter of a law whose aggregate is `Law` (with double members).
+/// One parameter of a law, over the law's own scalar. A law's parameters are given by setting these members.
 template <class Law>
 struct Parameter {
     std::string_view key;                           ///< name in a scenario and in the API, "stiffness"
     std::string_view symbol;                        ///< the paper's symbol, "K_n"
     std::string_view unit;                          ///< SI unit, "N/m^1.5"; "1" where it has none
-    double Law::*member;                            ///< where the value lives
+    typename Law::value_type Law::*member;          ///< where the value lives
     std::string_view description;                   ///< one phrase: what it is
     std::string_view when_zero;                     ///< what the law becomes at zero; empty where zero is refused
     std::optional<double> fallback = std::nullopt;  ///< value where it is left out; none: it is required

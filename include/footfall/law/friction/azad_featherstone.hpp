@@ -34,8 +34,8 @@ struct AzadFeatherstoneFriction : SpringDamperClutch<S, 1> {
         .limits = "no Stribeck effect; the changing stiffness does work that no force pays for (P)"};
 
     static constexpr auto parameters() noexcept {
-        return SpringDamperClutch<S, 1>::template parameters_of<SpringDamperClutch<double, 1>>("K_t", "N/m^1.5", "D_t",
-                                                                                               "N s/m^1.5");
+        return SpringDamperClutch<S, 1>::template parameters_of<SpringDamperClutch<S, 1>>("K_t", "N/m^1.5", "D_t",
+                                                                                          "N s/m^1.5");
     }
 };
 

@@ -79,7 +79,7 @@ struct BlimanSorineFriction {
             "forces"};
 
     static constexpr auto parameters() noexcept {
-        using Law = BlimanSorineFriction<double>;
+        using Law = BlimanSorineFriction<S>;
         return std::array{
             Parameter<Law>{"coefficient", "mu", "1", &Law::coefficient, "coefficient of friction of steady sliding",
                            "no friction in steady sliding"},

@@ -56,7 +56,7 @@ struct DahlFriction {
             "no Stribeck effect, no static friction above the kinetic one; drifts under small oscillating forces"};
 
     static constexpr auto parameters() noexcept {
-        using Law = DahlFriction<double>;
+        using Law = DahlFriction<S>;
         return std::array{
             Parameter<Law>{"stiffness", "sigma_0", "1/m", &Law::stiffness, "stiffness at rest over the load", ""},
             Parameter<Law>{"coefficient", "mu", "1", &Law::coefficient, "coefficient of friction",

@@ -97,7 +97,7 @@ struct HaessigFriedlandFriction {
             "Stribeck curve"};
 
     static constexpr auto parameters() noexcept {
-        using Law = HaessigFriedlandFriction<double>;
+        using Law = HaessigFriedlandFriction<S>;
         return std::array{
             Parameter<Law>{"stiffness", "sigma_0", "1/m", &Law::stiffness, "stiffness of all bonds over the load", ""},
             Parameter<Law>{"reach", "delta_s", "m", &Law::reach, "stretch at which a bond snaps", ""}};

@@ -29,8 +29,7 @@ struct LinearFriction : SpringDamperClutch<S, 0> {
         .limits = "stiffness and damping do not grow with the contact area"};
 
     static constexpr auto parameters() noexcept {
-        return SpringDamperClutch<S, 0>::template parameters_of<SpringDamperClutch<double, 0>>("k_t", "N/m", "b_t",
-                                                                                               "N s/m");
+        return SpringDamperClutch<S, 0>::template parameters_of<SpringDamperClutch<S, 0>>("k_t", "N/m", "b_t", "N s/m");
     }
 };
 

@@ -52,6 +52,9 @@ struct LuGreFriction {
 
     [[nodiscard]] double state_size(int) const noexcept { return static_cast<double>(kinetic_coefficient / stiffness); }
 
+    /// The term of sigma_1 in the clutch has no sign.
+    [[nodiscard]] bool clutch_only_takes() const noexcept { return !(damping > S(0)); }
+
     template <class T>
     [[nodiscard]] constexpr LuGreFriction<T> cast() const noexcept {
         return {T(stiffness),           T(damping),           T(static_coefficient),
@@ -66,7 +69,7 @@ struct LuGreFriction {
         .source = "Canudas de Wit, Olsson, Astrom & Lischinsky 1995, (3)-(5), over the load",
         .limits = "drifts under small oscillating forces; not passive for large sigma_1"};
 
-    static constexpr auto parameters() noexcept { return stribeck_bristle_parameters<LuGreFriction<double>>(); }
+    static constexpr auto parameters() noexcept { return stribeck_bristle_parameters<LuGreFriction>(); }
 };
 
 }  // namespace footfall

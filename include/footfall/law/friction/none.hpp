@@ -9,6 +9,7 @@ namespace footfall {
 
 template <class S = double>
 struct NoFriction {
+    using value_type = S;
     static constexpr bool has_bristle = false;
     static constexpr int ScalePower = 0;
 
@@ -22,7 +23,7 @@ struct NoFriction {
                                                 .source = "the frictionless limit",
                                                 .limits = "no tangential force at all"};
 
-    static constexpr auto parameters() noexcept { return std::array<Parameter<NoFriction<double>>, 0>{}; }
+    static constexpr auto parameters() noexcept { return std::array<Parameter<NoFriction>, 0>{}; }
 };
 
 }  // namespace footfall

@@ -45,7 +45,7 @@ struct RegularizedCoulombFriction {
         .limits = "creeps under any force, so nothing ever rests on a slope; no pre-sliding, no stiction"};
 
     static constexpr auto parameters() noexcept {
-        using Law = RegularizedCoulombFriction<double>;
+        using Law = RegularizedCoulombFriction<S>;
         return std::array{Parameter<Law>{"coefficient", "mu", "1", &Law::coefficient, "coefficient of friction",
                                          "no friction at all"},
                           Parameter<Law>{"rounding_speed", "v_eps", "m/s", &Law::rounding_speed,

@@ -65,6 +65,9 @@ struct ResetIntegratorFriction {
 
     [[nodiscard]] double state_size(int) const noexcept { return static_cast<double>(reach); }
 
+    /// With stiction it gives back what it let go with, where it takes hold again.
+    [[nodiscard]] bool clutch_only_takes() const noexcept { return !(stiction > S(0)); }
+
     template <class T>
     [[nodiscard]] constexpr ResetIntegratorFriction<T> cast() const noexcept {
         return {T(stiffness), T(damping), T(reach), T(stiction)};
@@ -80,7 +83,7 @@ struct ResetIntegratorFriction {
             "force jumps at break-away where a > 0, and back at the reversal, which makes energy; no Stribeck curve"};
 
     static constexpr auto parameters() noexcept {
-        using Law = ResetIntegratorFriction<double>;
+        using Law = ResetIntegratorFriction<S>;
         return std::array{Parameter<Law>{"stiffness", "sigma_0", "1/m", &Law::stiffness, "stiffness over the load", ""},
                           Parameter<Law>{"damping", "sigma_1", "s/m", &Law::damping, "damping over the load",
                                          "no loss before sliding"},

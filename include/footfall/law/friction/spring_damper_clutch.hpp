@@ -41,6 +41,7 @@ struct FrictionResponse {
 /// Spring, damper and clutch over a scale that is s^ScalePower, s = sqrt(z).
 template <class S, int ScalePower_>
 struct SpringDamperClutch {
+    using value_type = S;
     static constexpr int ScalePower = ScalePower_;
     static constexpr bool has_bristle = true;
 

@@ -54,7 +54,7 @@ struct AzadFeatherstoneNormal {
                                                 .limits = "no adhesion, no plasticity; depth small beside the radius"};
 
     static constexpr auto parameters() noexcept {
-        using Law = AzadFeatherstoneNormal<double>;
+        using Law = AzadFeatherstoneNormal<S>;
         return std::array{Parameter<Law>{"stiffness", "K_n", "N/m^1.5", &Law::stiffness, "normal stiffness", ""},
                           Parameter<Law>{"damping", "D_n", "N s/m^1.5", &Law::damping, "normal damping",
                                          "elastic: Hertz's law, restitution 1"}};

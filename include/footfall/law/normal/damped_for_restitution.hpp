@@ -53,7 +53,7 @@ struct DampedForRestitution {
     static constexpr LawDescription description = Damping::description;
 
     static constexpr auto parameters() noexcept {
-        using Law = RestatedNormal<DampedForRestitution<Damping, double>>;
+        using Law = RestatedNormal<DampedForRestitution<Damping, S>>;
         return std::array{Parameter<Law>{"stiffness", "K", "N/m^n", &Law::stiffness, "normal stiffness", "", {}, true},
                           Parameter<Law>{.key = "restitution",
                                          .symbol = "e",

@@ -46,7 +46,7 @@ struct FalconParameters {
         .limits = "no adhesion, no plasticity; 1 - e goes as v^((4b-1)/5), for b = 0.25 not with the speed"};
 
     static constexpr auto parameters() noexcept {
-        using Law = RestatedNormal<FalconParameters<double>>;
+        using Law = RestatedNormal<FalconParameters<S>>;
         return std::array{
             Parameter<Law>{"stiffness", "K_n", "N/m^1.5", &Law::stiffness, "normal stiffness", ""},
             Parameter<Law>{

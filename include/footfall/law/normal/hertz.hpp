@@ -44,7 +44,7 @@ struct HertzNormal {
                                                 .limits = "elastic: no loss at all; depth small beside the radius"};
 
     static constexpr auto parameters() noexcept {
-        using Law = HertzNormal<double>;
+        using Law = HertzNormal<S>;
         return std::array{Parameter<Law>{"stiffness", "K_n", "N/m^1.5", &Law::stiffness, "normal stiffness", ""}};
     }
 };

@@ -66,7 +66,7 @@ struct HuntCrossleyNormal {
         .limits = "no adhesion, no plasticity; zdot^q is sign(zdot) |zdot|^q"};
 
     static constexpr auto parameters() noexcept {
-        using Law = HuntCrossleyNormal<double>;
+        using Law = HuntCrossleyNormal<S>;
         return std::array{Parameter<Law>{"stiffness", "k", "N/m^n", &Law::stiffness, "normal stiffness", "", {}, true},
                           Parameter<Law>{"damping",
                                          "lambda",

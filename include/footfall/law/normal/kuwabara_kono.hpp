@@ -43,7 +43,7 @@ struct KuwabaraKonoParameters {
         .limits = "no adhesion, no plasticity; depth small beside the radius"};
 
     static constexpr auto parameters() noexcept {
-        using Law = RestatedNormal<KuwabaraKonoParameters<double>>;
+        using Law = RestatedNormal<KuwabaraKonoParameters<S>>;
         return std::array{Parameter<Law>{"stiffness", "K_n", "N/m^1.5", &Law::stiffness, "normal stiffness", ""},
                           Parameter<Law>{"damping_time", "A", "s", &Law::damping_time,
                                          "dissipative parameter of the material, D_n = 1.5 A K_n",

@@ -47,7 +47,7 @@ struct LinearNormal {
                                                 .limits = "the force jumps to d zdot at touchdown"};
 
     static constexpr auto parameters() noexcept {
-        using Law = LinearNormal<double>;
+        using Law = LinearNormal<S>;
         return std::array{
             Parameter<Law>{"stiffness", "k", "N/m", &Law::stiffness, "normal stiffness", ""},
             Parameter<Law>{"damping", "d", "N s/m", &Law::damping, "normal damping", "elastic, restitution 1"}};

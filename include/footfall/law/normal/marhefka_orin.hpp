@@ -45,7 +45,7 @@ struct MarhefkaOrinParameters {
         .limits = "restitution falls linearly with speed from rest on; no adhesion, no plasticity"};
 
     static constexpr auto parameters() noexcept {
-        using Law = RestatedNormal<MarhefkaOrinParameters<double>>;
+        using Law = RestatedNormal<MarhefkaOrinParameters<S>>;
         return std::array{
             Parameter<Law>{"stiffness", "k", "N/m^n", &Law::stiffness, "normal stiffness", "", {}, true},
             Parameter<Law>{"alpha", "alpha", "s/m", &Law::alpha, "slope of restitution, e = 1 - alpha v",

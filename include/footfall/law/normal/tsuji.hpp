@@ -79,7 +79,7 @@ struct TsujiNormal {
         .limits = "the same restitution at every speed; no adhesion, no plasticity"};
 
     static constexpr auto parameters() noexcept {
-        using Law = TsujiNormal<double>;
+        using Law = TsujiNormal<S>;
         return std::array{Parameter<Law>{"stiffness", "k", "N/m^1.5", &Law::stiffness, "normal stiffness", ""},
                           Parameter<Law>{"mass", "m", "kg", &Law::mass, "mass that bounces: the body's", ""},
                           Parameter<Law>{.key = "restitution",
