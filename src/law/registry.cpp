@@ -19,6 +19,18 @@ void check_law(const Law& law, std::string_view who, std::string_view part) {
 
 }  // namespace
 
+bool clutch_only_takes(const FrictionLaw& law) {
+    return std::visit(
+        [](const auto& l) {
+            if constexpr (requires { l.clutch_only_takes(); }) {
+                return l.clutch_only_takes();
+            } else {
+                return true;
+            }
+        },
+        law);
+}
+
 void check(const ContactParameters& contact, std::string_view who) {
     std::visit([&](const auto& law) { check_law(law, who, "normal"); }, contact.normal);
     std::visit([&](const auto& law) { check_law(law, who, "friction"); }, contact.friction);

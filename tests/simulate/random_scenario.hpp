@@ -1,11 +1,15 @@
 // Random valid scenarios, and what must be true of each of their runs.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -13,12 +17,20 @@
 
 namespace footfall::soak {
 
+/// Which laws are drawn.
+enum class Laws {
+    every,   ///< of the registry
+    clutch,  ///< the paper's, Hunt & Crossley's and the linear normal law; friction with a clutch, and none
+};
+
 /// Draws a scenario: sizes, masses, speeds and parameters over many decades, laws of every kind, one to six spheres,
-/// slopes, spins, starts in the air, on the ground and in it. Stiffness and damping are drawn relative to the impact
-/// they meet, so that every regime from elastic to creeping is visited at every scale.
+/// slopes, spins, starts in the air, on the ground and in it. Every parameter of a law is drawn relative to the impact
+/// that it meets, so that every regime from elastic to creeping is visited at every scale.
 class RandomScenario {
 public:
-    explicit RandomScenario(std::uint64_t seed) : random_(seed) {}
+    /// `mixed`: each sphere of a body has laws of its own.
+    explicit RandomScenario(std::uint64_t seed, Laws laws = Laws::every, bool mixed = false)
+        : random_(seed), laws_(laws), mixed_(mixed) {}
 
     Simulation draw() {
         radius_ = decades(-3, 0);
@@ -29,9 +41,18 @@ public:
         draw_body(s, spheres);
         depth_ = radius_ * decades(-5, -1.3);
         period_ = depth_ / speed_;
-        const int normal = static_cast<int>(uniform(0, 3)), friction = static_cast<int>(uniform(0, 3));
+        NormalLaw normal = draw_kind<NormalLaw>(normal_kinds());
+        FrictionLaw friction = draw_kind<FrictionLaw>(friction_kinds());
         draw_exponents();
-        for (int i = 0; i < spheres; ++i) s.contacts.push_back({draw_normal(normal), draw_friction(friction)});
+        for (int i = 0; i < spheres; ++i) {
+            if (mixed_ && i > 0) {
+                normal = draw_kind<NormalLaw>(normal_kinds());
+                friction = draw_kind<FrictionLaw>(friction_kinds());
+            }
+            draw_normal(normal);
+            draw_friction(friction);
+            s.contacts.push_back({normal, friction});
+        }
         draw_start(s);
         s.options.tolerance = 1e-10;
         s.options.sample_period = s.options.end_time / 64;
@@ -98,42 +119,162 @@ private:
         q_ = chance(0.7) ? 1.0 : uniform(1, 2);
     }
 
-    NormalLaw draw_normal(int kind) {
-        const double energy = mass_ * speed_ * speed_;
-        const double loss = chance(0.1) ? 0.0 : decades(-4, 1.5);
-        switch (kind) {
-            case 0: {
-                const double K = 1.25 * energy / std::pow(depth_, 2.5);
-                return AzadFeatherstoneNormal<>{K, loss * K * period_};
-            }
-            case 1: {
-                HuntCrossleyNormal<> law;
-                if (general_) law.n = n_, law.p = p_, law.q = q_;
-                law.stiffness = 0.5 * (law.n + 1) * energy / std::pow(depth_, law.n + 1);
-                law.damping = loss * law.stiffness * std::pow(depth_, law.n - law.p) / std::pow(speed_, law.q);
-                return law;
-            }
-            default: {
-                const double k = energy / (depth_ * depth_);
-                return LinearNormal<>{k, loss * k * period_};
-            }
-        }
+    /// The laws to draw from, without parameters yet.
+    [[nodiscard]] std::vector<NormalLaw> normal_kinds() const {
+        if (laws_ == Laws::clutch) return {AzadFeatherstoneNormal<>{}, HuntCrossleyNormal<>{}, LinearNormal<>{}};
+        return all_of<NormalLaw>();
+    }
+    [[nodiscard]] std::vector<FrictionLaw> friction_kinds() const {
+        if (laws_ == Laws::clutch) return {NoFriction<>{}, AzadFeatherstoneFriction<>{}, LinearFriction<>{}};
+        return all_of<FrictionLaw>();
+    }
+    template <class Variant>
+    static std::vector<Variant> all_of() {
+        std::vector<Variant> all;
+        for_each_law<Variant>([&](const auto& law) { all.push_back(law); });
+        return all;
+    }
+    template <class Variant>
+    Variant draw_kind(const std::vector<Variant>& kinds) {
+        return kinds[static_cast<std::size_t>(uniform(0, static_cast<double>(kinds.size())))];
     }
 
-    FrictionLaw draw_friction(int kind) {
-        const double k = mass_ * speed_ * speed_ / (depth_ * depth_) * decades(-1.5, 1.5);
-        const double damping = chance(0.1) ? 0.0 : decades(-3, 1.5) * period_;
-        const double mu = chance(0.1) ? 0.0 : decades(-2, 0.5);
-        const double viscous = chance(0.4) ? 0.0 : mass_ / period_ * decades(-5, 1);
-        switch (kind) {
-            case 0:
-                return NoFriction<>{};
-            case 1: {
-                const double K = k / std::sqrt(depth_);
-                return AzadFeatherstoneFriction<>{{K, K * damping, mu, viscous}};
+    // ---- normal laws: the spring holds half of the impact's energy m v^2 at the depth ------------------------------
+
+    void draw_normal(NormalLaw& law) {
+        const double energy = mass_ * speed_ * speed_;
+        const double loss = chance(0.1) ? 0.0 : decades(-4, 1.5);
+        std::visit(
+            [&](auto& l) {
+                if constexpr (requires { draw_into(l, energy, loss); }) {
+                    draw_into(l, energy, loss);
+                } else {
+                    draw_parameters(l, energy, loss);
+                }
+            },
+            law);
+    }
+    void draw_into(AzadFeatherstoneNormal<>& law, double energy, double loss) const {
+        const double K = 1.25 * energy / std::pow(depth_, 2.5);
+        law = {K, loss * K * period_};
+    }
+    void draw_into(HuntCrossleyNormal<>& law, double energy, double loss) const {
+        law = {};
+        if (general_) law.n = n_, law.p = p_, law.q = q_;
+        law.stiffness = 0.5 * (law.n + 1) * energy / std::pow(depth_, law.n + 1);
+        law.damping = loss * law.stiffness * std::pow(depth_, law.n - law.p) / std::pow(speed_, law.q);
+    }
+    void draw_into(LinearNormal<>& law, double energy, double loss) const {
+        const double k = energy / (depth_ * depth_);
+        law = {k, loss * k * period_};
+    }
+    /// `loss` is what the damper gives over what the spring does, at this depth and speed. Both are proportional to
+    /// their parameter.
+    template <class Law>
+    void draw_parameters(Law& law, double energy, double loss) {
+        law = {};
+        double Law::*lossy = nullptr;
+        for (const auto& p : Law::parameters()) {
+            double& value = law.*p.member;
+            if (p.key == "stiffness") {
+                value = 1;
+            } else if (p.key == "damping" || p.key == "damping_time" || p.key == "alpha") {
+                lossy = p.member;
+                value = 1;
+            } else if (p.key == "restitution") {
+                value = loss > 0 ? uniform(0.05, 1) : 1.0;
+            } else if (p.key == "mass") {
+                value = mass_ * decades(-1, 0);
+            } else if (p.key == "slowest_impact") {
+                value = speed_ * decades(-6, -1);
+            } else if (p.key == "n") {
+                value = general_ ? n_ : p.fallback.value();
+            } else if (p.key == "exponent") {
+                value = general_ ? uniform(0, 1) : p.fallback.value();
+            } else {
+                throw std::logic_error(fmt::format("no rule draws {} of {}", p.key, Law::description.name));
             }
-            default:
-                return LinearFriction<>{{k, k * damping, mu, viscous}};
+        }
+        const double s = std::sqrt(depth_);
+        law.stiffness = 0.5 * energy / law.stored_energy(s);
+        if (!lossy) return;
+        const NormalForce<double> f = law.force(s, speed_);
+        law.*lossy = loss * f.elastic / f.dissipative;
+    }
+
+    // ---- friction laws ---------------------------------------------------------------------------------------------
+
+    void draw_friction(FrictionLaw& law) {
+        Friction f;
+        f.stiffness = mass_ * speed_ * speed_ / (depth_ * depth_) * decades(-1.5, 1.5);
+        f.relaxation = chance(0.1) ? 0.0 : decades(-3, 1.5) * period_;
+        f.mu = chance(0.1) ? 0.0 : decades(-2, 0.5);
+        f.viscous = chance(0.4) ? 0.0 : mass_ / period_ * decades(-5, 1);
+        std::visit(
+            [&](auto& l) {
+                if constexpr (requires { draw_into(l, f); }) {
+                    draw_into(l, f);
+                } else {
+                    draw_parameters(l, f);
+                }
+            },
+            law);
+    }
+    /// What a clutch would have.
+    struct Friction {
+        double stiffness = 0;   ///< [N/m]
+        double relaxation = 0;  ///< damping over stiffness [s]
+        double mu = 0;
+        double viscous = 0;  ///< [N s/m]
+    };
+    void draw_into(NoFriction<>& /*law*/, const Friction& /*f*/) const {}
+    void draw_into(AzadFeatherstoneFriction<>& law, const Friction& f) const {
+        const double K = f.stiffness / std::sqrt(depth_);
+        law = {{K, K * f.relaxation, f.mu, f.viscous}};
+    }
+    void draw_into(LinearFriction<>& law, const Friction& f) const {
+        law = {{f.stiffness, f.stiffness * f.relaxation, f.mu, f.viscous}};
+    }
+    /// Every snap of a bond is an event: as many as a run can do.
+    void draw_into(HaessigFriedlandFriction<>& law, const Friction& f) {
+        law.reach = depth_ * decades(-0.5, 1);
+        law.stiffness = std::max(f.mu, least_mu) / law.reach;
+    }
+    /// Laws over the load, which is about m v^2 / z.
+    template <class Law>
+    void draw_parameters(Law& law, const Friction& f) {
+        const double load = mass_ * speed_ * speed_ / depth_, mu = std::max(f.mu, least_mu);
+        const double sigma = f.stiffness / load;
+        law = {};
+        for (const auto& p : Law::parameters()) {
+            double& value = law.*p.member;
+            if (p.key == "stiffness") {
+                value = sigma;
+            } else if (p.key == "damping") {
+                value = sigma * f.relaxation;
+            } else if (p.key == "viscous") {
+                value = f.viscous / load;
+            } else if (p.key == "coefficient") {
+                value = p.may_be_zero() ? f.mu : mu;
+            } else if (p.key == "kinetic_coefficient") {
+                value = mu;
+            } else if (p.key == "static_coefficient") {
+                value = chance(0.2) ? mu : mu * uniform(0.8, 2);
+            } else if (p.key == "stribeck_coefficient" || p.key == "slow_coefficient") {
+                value = chance(0.2) ? 0.0 : mu * uniform(0, 1);
+            } else if (p.key == "stiction") {
+                value = chance(0.2) ? 0.0 : uniform(0, 1);
+            } else if (p.key == "elastic_share" || p.key == "fast_share") {
+                value = chance(0.2) ? 1.0 : uniform(0.05, 1);
+            } else if (p.key == "reach" || p.key == "slow_length") {
+                value = mu / sigma;
+            } else if (p.key == "stribeck_velocity" || p.key == "rounding_speed") {
+                value = speed_ * decades(-3, 0);
+            } else if (p.key == "memory_time" || p.key == "rise_time") {
+                value = period_ * decades(-2, 2);
+            } else {
+                throw std::logic_error(fmt::format("no rule draws {} of {}", p.key, Law::description.name));
+            }
         }
     }
 
@@ -163,7 +304,11 @@ private:
         s.options.end_time = 1.1 * fall + period_ * decades(0.5, 2.5);
     }
 
+    static constexpr double least_mu = 0.01;  ///< where a law has no frictionless limit
+
     std::mt19937_64 random_;
+    Laws laws_;
+    bool mixed_;
     double radius_ = 1, speed_ = 1, mass_ = 1, depth_ = 1, period_ = 1;
     bool flat_ = false, general_ = false;
     double n_ = 1.5, p_ = 1.5, q_ = 1;
@@ -196,12 +341,12 @@ inline std::string disorder(const Run& run) {
     return "";
 }
 
-/// What is wrong with a run; empty where nothing is.
-inline std::string verdict(const Run& run, double tolerance) {
+/// What is wrong with a run of the simulation; empty where nothing is.
+inline std::string verdict(const Run& run, const Simulation& simulation) {
     if (const std::string wrong = disorder(run); !wrong.empty()) return wrong;
     if (run.max_residual > 1e-8) return fmt::format("residual {:.2e} is above 1e-8", run.max_residual);
     // A channel is integrated to the tolerance, so it may waver by that much where it stands still.
-    const double slack = 10 * tolerance * run.energy_scale;
+    const double slack = 10 * simulation.options.tolerance * run.energy_scale;
     for (std::size_t k = 0; k < run.samples.size(); ++k) {
         if (!finite(run.samples[k])) return fmt::format("sample {} is not finite", k);
         if (k == 0) continue;
@@ -211,7 +356,8 @@ inline std::string verdict(const Run& run, double tolerance) {
                 return fmt::format("normal damper of sphere {} gives back", i);
             if (b.tangential_damper < a.tangential_damper - slack)
                 return fmt::format("tangential damper of sphere {} gives back", i);
-            if (b.clutch < a.clutch - slack) return fmt::format("clutch of sphere {} gives back", i);
+            if (clutch_only_takes(simulation.contacts[i].friction) && b.clutch < a.clutch - slack)
+                return fmt::format("clutch of sphere {} gives back", i);
         }
     }
     return finite(run.final) ? "" : "the final state is not finite";

@@ -71,6 +71,10 @@ template <class Variant>
     return std::visit([](const auto& l) { return l.description.name; }, law);
 }
 
+/// Whether what the clutch of a friction law has taken can never fall. A law that can give back says so, and for which
+/// of its parameters, by a member of this name.
+[[nodiscard]] bool clutch_only_takes(const FrictionLaw& law);
+
 /// Throws InvalidInput where a parameter of a law is outside its range; `who` names the law's place in the message.
 void check(const ContactParameters& contact, std::string_view who);
 
