@@ -40,8 +40,10 @@ struct PairsOf<std::variant<Normals...>, std::variant<Frictions...>> {
     static ::testing::Types<Laws...> listed(const std::tuple<Laws...>&);
     using type = decltype(listed(std::tuple_cat(std::declval<row<Normals>>()...)));
 };
-using ContactLaws =
-    PairsOf<std::variant<AzadFeatherstoneNormal<>, HuntCrossleyNormal<>, LinearNormal<>>, ClutchFrictionLaw>::type;
+using SomeNormals = std::variant<AzadFeatherstoneNormal<>, HuntCrossleyNormal<>, LinearNormal<>>;
+using ContactLaws = PairsOf<SomeNormals, ClutchFrictionLaw>::type;
+/// Those of them in which stick and slip differ.
+using ClutchedContactLaws = PairsOf<SomeNormals, std::variant<AzadFeatherstoneFriction<>, LinearFriction<>>>::type;
 
 /// Names typed tests after the law, not after its position in the list.
 struct LawNames {

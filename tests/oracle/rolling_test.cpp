@@ -99,7 +99,8 @@ TEST(PaperRollingRun, BooksInEveryChannelWhatTheReferenceBooks) {
     expect_ledger(paper_run(), oracle::paper_ball().cast<long double>(), paper_reference().final, 1e-9);
 }
 
-// DESIGN.md's fact 7 from the other side: the sum of body, springs and losses ends above what was put in.
+// No force pays for the changing stiffness of the tangential spring (docs/theory.md, P): the sum of body, springs and
+// losses ends above what was put in.
 TEST(PaperRollingRun, EndsWithEnergyThatTheLawHasMade) {
     const footfall::Ledger& ledger = paper_run().final.ledger;
     const double made =
