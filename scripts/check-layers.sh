@@ -1,15 +1,17 @@
 #!/bin/sh
 # Data goes one way: a folder of include/footfall or src includes only from itself and from those above it in this
 # list. Files that lie directly in include/footfall belong to no layer: any file may include version.hpp, none another.
+# Only law/ asks what kind of law it has. No file is longer than 500 lines.
 set -eu
 cd "$(dirname "$0")/.."
 
-layers="math solve material law body energy simulate study io"
+layers="math solve material law body energy surface plant simulate study io"
 
 find include/footfall src \( -name '*.hpp' -o -name '*.cpp' -o -name '*.in' \) | sort | xargs awk -v layers="$layers" '
     BEGIN {
         n = split(layers, name, " ")
         for (i = 1; i <= n; i++) rank[name[i]] = i
+        kinds = "has_(states|clutch|bristle)|begin_impact|(Rate|Clutch|Coupled)Friction|FrictionPart|NormalPart"
     }
     FNR == 1 {
         path = FILENAME
@@ -28,10 +30,14 @@ find include/footfall src \( -name '*.hpp' -o -name '*.cpp' -o -name '*.in' \) |
             else if (here != "" && rank[there] > rank[here]) fail(here "/ includes from " there "/, which is below it")
         }
     }
+    here ~ /^(solve|plant|simulate)$/ && match($0, kinds) {
+        fail("asks for a kind of law: " substr($0, RSTART, RLENGTH))
+    }
+    FNR == 501 { fail("is longer than 500 lines") }
     function fail(what) {
         print FILENAME ":" FNR ": " what
         failures++
     }
     END { exit failures > 0 }
 '
-echo "layers: every include goes one way"
+echo "layers: every include goes one way, and only law/ asks for the kind of a law"

@@ -10,7 +10,6 @@ jobs=${2:-1}
 tidy=${CLANG_TIDY:-clang-tidy-16}
 
 # The compiler's warnings are the compiler's to give (-w), and how many there were in the system's headers is no news.
-# Of the runs, which differ in their laws alone and are the largest files, one will do.
-find src apps -name '*.cpp' ! -name 'run_*friction.cpp' | sort |
+find src apps -name '*.cpp' | sort |
     xargs -P "$jobs" -n 1 "$tidy" -p "$build" --quiet --extra-arg=-w 2>&1 |
     { grep -v -E '^[0-9]+ warnings? generated\.$' || true; }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import importlib.util
+import inspect
 import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
@@ -25,29 +25,29 @@ class Channel(NamedTuple):
 
 
 def _table() -> tuple[Channel, ...]:
-    # What reads and draws runs does without the extension: the file says what is in it.
-    if importlib.util.find_spec("footfall._core") is None:
+    try:
+        from footfall._core import CHANNELS
+    except ModuleNotFoundError:  # what reads and draws runs does without the extension: files say what is in them
         return ()
-    from footfall import _core
-
-    return tuple(Channel(c.name, c.kind, c.label, c.description, c.response) for c in _core.CHANNELS)
+    return tuple(Channel(c.name, c.kind, c.label, c.description, c.response) for c in CHANNELS)
 
 
 #: In the order of every output; empty without the extension.
 TABLE: tuple[Channel, ...] = _table()
 
-_SUMS = ("tangential_spring_paper",)  # made of channels, with a variable beside them
+_SUMS = ("tangential_spring_paper",)  # made of channels, with variables like theirs
 
 
 def of_dataset(data: xr.Dataset) -> tuple[Channel, ...]:
     """The channels of a run's dataset. What is not in the table is what the file says of it."""
     known = {channel.name: channel for channel in TABLE}
-    names = [str(name).removeprefix("sphere_energy_") for name in data if str(name).startswith("sphere_energy_")]
-    return tuple(
-        known.get(name) or _described(name, str(data[f"sphere_energy_{name}"].attrs.get("long_name", "")))
-        for name in names
+    said = {
+        name: _described(name, str(data[f"sphere_energy_{name}"].attrs.get("long_name", "")))
+        for name in (str(n).removeprefix("sphere_energy_") for n in data if str(n).startswith("sphere_energy_"))
         if name not in _SUMS
-    )
+    }
+    # Files keep no order.
+    return tuple(known[name] for name in known if name in said) + tuple(said[name] for name in said if name not in known)
 
 
 def _described(name: str, description: str) -> Channel:
@@ -60,4 +60,4 @@ def _described(name: str, description: str) -> Channel:
 def list_in_docstring(kind: type, line: Callable[[Channel], str]) -> None:
     """Adds a line for each channel of the table to the docstring of a class that has an attribute for each."""
     if TABLE:
-        kind.__doc__ = "\n    ".join([f"{kind.__doc__}Channels:", "", *(f"- {line(channel)}" for channel in TABLE), ""])
+        kind.__doc__ = "\n".join([inspect.getdoc(kind) or "", "", "Channels:", "", *(f"- {line(c)}" for c in TABLE)])

@@ -53,7 +53,10 @@ class Response(Compared, ResponseChannels):
 
 
 _channels.list_in_docstring(
-    Response, lambda channel: f"{channel.response} [{'J' if channel.kind == 'held' else 'W'}]: {channel.description}"
+    Response,
+    lambda channel: f"{channel.response}: {channel.description} [J]"
+    if channel.kind == "held"
+    else f"{channel.response}: rate of {channel.description} [W]",
 )
 
 

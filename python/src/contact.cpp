@@ -13,6 +13,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nanobind/ndarray.h>
@@ -22,11 +23,8 @@
 #include "bind.hpp"
 #include "channels.hpp"
 #include "footfall/energy/channels.hpp"
-#include "footfall/law/any_normal.hpp"
-#include "footfall/law/any_rate_friction.hpp"
-#include "footfall/law/bristle_step.hpp"
-#include "footfall/law/contact_law.hpp"
-#include "footfall/law/friction_state_step.hpp"
+#include "footfall/law/contact_response.hpp"
+#include "footfall/law/contact_step.hpp"
 #include "footfall/law/registry.hpp"
 #include "footfall/math/error.hpp"
 #include "footfall/simulate/run.hpp"
@@ -105,7 +103,7 @@ struct Column {
 
 struct Contacts {
     Column<> depth, depth_rate, slip_velocity, bristle;
-    Column<std::int8_t> phase;  // as it was; laws that decide it themselves do not look
+    Column<std::int8_t> phase;  // as it was; laws whose forces decide it do not look
 };
 
 constexpr std::size_t channel_count = contact_channels.size();
@@ -156,11 +154,20 @@ inline void put(const Vector2<double>& v, double* out) noexcept {
     out[1] = v[1];
 }
 
+/// Unrolled, so that the table's members are known where this is compiled.
+template <std::size_t... k>
+void put_channels(const ContactResponse<double>& r, const Responses& out, std::size_t i,
+                  std::index_sequence<k...> /*channels*/) noexcept {
+    ((out.channels[k][i] =
+          r.*std::integral_constant<decltype(contact_channels[k].response), contact_channels[k].response>::value),
+     ...);
+}
+
 inline void put(const ContactResponse<double>& r, const Responses& out, std::size_t i) noexcept {
     out.phase[i] = static_cast<std::int8_t>(r.phase);
     out.normal_force[i] = r.normal_force;
     put(r.friction_force, out.friction_force + 2 * i);
-    for (std::size_t k = 0; k < channel_count; ++k) out.channels[k][i] = r.*contact_channels[k].response;
+    put_channels(r, out, i, std::make_index_sequence<channel_count>());
 }
 
 /// Lets Ctrl-C end long work, now and then.
@@ -180,168 +187,103 @@ inline void check_whole(double left, double dt, std::size_t i) {
         i, left, dt));
 }
 
-// Friction laws with a bristle, or with nothing
-// ------------------------------------------------------------------------
+/// One contact's states as its law has them: those of the normal law, which are the same for all contacts, then the
+/// bristle. Of a law that is known the sizes are, too, so that nothing is copied in a loop.
+template <class Law>
+class States {
+public:
+    States(const Law& law, std::span<const double> landed) : law_(law) { land(landed); }
+
+    void land(std::span<const double> landed) noexcept {
+        for (std::size_t k = 0; k < landed.size(); ++k) all_[k] = landed[k];
+    }
+    // Number by number, for a block would go through memory.
+    void take(const double* bristle) noexcept {
+        for (std::size_t k = 0; k < width(); ++k) all_[before() + k] = bristle[k];
+    }
+    void give(double* bristle) const noexcept {
+        for (std::size_t k = 0; k < width(); ++k) bristle[k] = all_[before() + k];
+    }
+    [[nodiscard]] std::span<double> bristle() noexcept { return {all_.data() + before(), width()}; }
+    [[nodiscard]] std::span<double> all() noexcept { return {all_.data(), before() + width()}; }
+    [[nodiscard]] std::size_t width() const noexcept { return static_cast<std::size_t>(law_.bristle_size()); }
+
+private:
+    [[nodiscard]] std::size_t before() const noexcept { return static_cast<std::size_t>(law_.normal_state_count()); }
+
+    const Law& law_;
+    std::array<double, static_cast<std::size_t>(Law::most_states)> all_{};
+};
+
+/// The mode that a contact was in, as a caller tells it.
+inline Mode told(std::int8_t phase) noexcept { return {Phase{static_cast<std::uint8_t>(phase)}}; }
 
 template <class Law>
-void evaluate(const Law law, const Contacts in, const Responses out, std::size_t count) noexcept {
-    constexpr std::size_t states = 2;
+void evaluate(const Law law, std::span<const double> landed, const Contacts in, const Responses out,
+              std::size_t count) noexcept {
+    States x(law, landed), rates(law, {});
     for (std::size_t i = 0; i < count; ++i) {
         const double depth = in.depth.number(i), rate = in.depth_rate.number(i);
-        const Vector2<double> V = in.slip_velocity.vector(i), u = in.bristle.vector(i);
-        if (!computable(depth, rate, V, {u.data(), states})) [[unlikely]] {
-            put_nan(out, states, i);
+        const Vector2<double> V = in.slip_velocity.vector(i);
+        x.take(in.bristle.at(i));
+        if (!computable(depth, rate, V, x.bristle())) [[unlikely]] {
+            put_nan(out, x.width(), i);
             continue;
         }
-        const ContactResponse<double> r = law.evaluate(depth, rate, V, u);
-        put(r, out, i);
-        put(r.bristle_rate, out.bristle_rate + 2 * i);
+        const Touch<double> t{root_of_depth(depth), rate, V};
+        const Mode mode = law.settled(law.mode_at(told(in.phase.number(i)), t, x.all()), t, x.all());
+        put(law.evaluate(mode, t, x.all(), rates.all()), out, i);
+        rates.give(out.bristle_rate + x.width() * i);
     }
 }
 
 template <class Law>
-void step(const Law& law, const Contacts& in, double dt, double tolerance, const Steps& out, std::size_t count) {
-    const BristleStepper stepper(law, tolerance);
-    constexpr std::size_t states = 2;
+void step(const Law& law, std::span<const double> landed, const Contacts& in, double dt, double tolerance,
+          const Steps& out, std::size_t count) {
+    const ContactStepper stepper(law, tolerance);
+    States x(law, landed);
     for (std::size_t i = 0; i < count; ++i) {
         check_signals(i);
         const double depth = in.depth.number(i), rate = in.depth_rate.number(i);
-        const Vector2<double> V = in.slip_velocity.vector(i), u = in.bristle.vector(i);
-        if (!computable(depth, rate, V, {u.data(), states})) {
-            put_nan(out, states, i);
+        const Vector2<double> V = in.slip_velocity.vector(i);
+        x.take(in.bristle.at(i));
+        if (!computable(depth, rate, V, x.bristle())) {
+            put_nan(out, x.width(), i);
             continue;
         }
-        const BristleStep r = stepper(bounded(depth), rate, V, u, dt);
+        const ContactStep r = stepper(told(in.phase.number(i)).phase, bounded(depth), rate, V, x.all(), dt);
         check_whole(r.left, dt, i);
         out.phase[i] = static_cast<std::int8_t>(r.phase);
         out.normal_force[i] = r.normal_force;
         put(r.mean_friction_force, out.friction_force + 2 * i);
-        put(r.bristle, out.bristle + 2 * i);
+        x.give(out.bristle + x.width() * i);
         out.tangential_damper[i] = r.tangential_damper;
         out.clutch[i] = r.clutch;
+        if (std::isnan(r.normal_force)) x.land(landed);
     }
 }
 
-// Friction laws with internal states
-// -----------------------------------------------------------------------------------
-
-using StatesLaw = ContactLaw<AnyNormal<>, AnyRateFriction<>>;
-
-/// The phase of a contact, and the root of its depth.
-struct Touch {
-    Phase phase = Phase::flight;
-    double s = 0;
-};
-
-/// `was` is its phase before; where it was not loaded, its friction is that of a new contact.
-inline Touch touch(const StatesLaw& law, double depth, double depth_rate, std::int8_t was) noexcept {
-    if (!(depth > 0)) return {};
-    const double s = std::sqrt(depth);
-    const Phase first = law.first_phase(s, depth_rate);
-    const Phase before{static_cast<std::uint8_t>(was)};
-    const bool loaded = first != Phase::recovering && (before == Phase::stick || before == Phase::slip);
-    return {loaded && law.friction.first_phase() != Phase::slip ? before : first, s};
-}
-
-void evaluate(const StatesLaw& law, const Contacts& in, const Responses& out, std::size_t count) noexcept {
-    const auto states = static_cast<std::size_t>(law.friction.state_count());
-    for (std::size_t i = 0; i < count; ++i) {
-        const double depth = in.depth.number(i), rate = in.depth_rate.number(i);
-        const Vector2<double> V = in.slip_velocity.vector(i);
-        const std::span<const double> x(in.bristle.at(i), states);
-        if (!computable(depth, rate, V, x)) {
-            put_nan(out, states, i);
-            continue;
-        }
-        Touch at = touch(law, depth, rate, in.phase.number(i));
-        std::array<double, max_friction_states> jumped{};
-        std::span<const double> now = x;
-        const bool loaded = at.phase == Phase::stick || at.phase == Phase::slip;
-        if (loaded && law.friction.margin(at.phase, V, x) < 0) {  // the phase that is given has ended here
-            std::copy(x.begin(), x.end(), jumped.begin());
-            at.phase = law.friction.jump(at.phase, V, std::span(jumped).first(states));
-            now = std::span(jumped).first(states);
-        }
-        put(law.respond(at.phase, at.s, rate, V, now, {out.bristle_rate + states * i, states}), out, i);
-    }
-}
-
-void step(const StatesLaw& law, const Contacts& in, double dt, double tolerance, const Steps& out, std::size_t count) {
-    const FrictionStateStepper stepper(law.friction, tolerance);
-    const auto states = static_cast<std::size_t>(law.friction.state_count());
-    for (std::size_t i = 0; i < count; ++i) {
-        check_signals(i);
-        const double depth = in.depth.number(i), rate = in.depth_rate.number(i);
-        const Vector2<double> V = in.slip_velocity.vector(i);
-        if (!computable(depth, rate, V, {in.bristle.at(i), states})) {
-            put_nan(out, states, i);
-            continue;
-        }
-        const Touch at = touch(law, depth, rate, in.phase.number(i));
-        const bool loaded = at.phase == Phase::stick || at.phase == Phase::slip;
-        const double F_n = loaded ? law.normal.force(at.s, rate).total() : 0;
-        const std::span<double> x(out.bristle + states * i, states);
-        std::copy_n(in.bristle.at(i), states, x.begin());
-        const FrictionStateStep r = stepper(at.phase, F_n, V, x, dt);
-        check_whole(r.left, dt, i);
-        out.phase[i] = static_cast<std::int8_t>(loaded ? r.phase : at.phase);
-        out.normal_force[i] = F_n;
-        put(r.mean_friction_force, out.friction_force + 2 * i);
-        out.tangential_damper[i] = r.tangential_damper;
-        out.clutch[i] = r.clutch;
-    }
-}
-
+/// A contact law, and the states of its normal law in an impact that begins at the speed that was given.
 class Law {
 public:
     Law(const NormalLaw& normal, const FrictionLaw& friction, std::optional<double> impact_speed)
-        : normal_(normal), friction_(friction), given_(normal) {
-        std::visit([](auto& law) { prepare(law); }, normal_);
-        if (!impact_speed) return;
-        std::visit(
-            [&](auto& law) {
-                if constexpr (requires { law.begin_impact(*impact_speed); }) law.begin_impact(*impact_speed);
-            },
-            normal_);
+        : law_(normal, friction), landed_(static_cast<std::size_t>(law_.normal_state_count())) {
+        if (impact_speed) law_.land({0, *impact_speed, Vector2<double>::Zero()}, landed_);
     }
 
-    [[nodiscard]] const NormalLaw& normal() const noexcept { return given_; }
-    [[nodiscard]] const FrictionLaw& friction() const noexcept { return friction_; }
+    [[nodiscard]] const NormalLaw& normal() const noexcept { return law_.normal; }
+    [[nodiscard]] const FrictionLaw& friction() const noexcept { return law_.friction; }
+    [[nodiscard]] const ContactLawOver<double>& law() const noexcept { return law_; }
+    [[nodiscard]] std::span<const double> landed() const noexcept { return landed_; }
 
     /// How many numbers the bristle of a contact has, or the internal states that a law has in its place.
-    [[nodiscard]] int states() const noexcept {
-        return std::visit(
-            []<class Friction>(const Friction&) {
-                if constexpr (requires { Friction::states; }) {
-                    return Friction::states;
-                } else {
-                    return 2;
-                }
-            },
-            friction_);
-    }
-
+    [[nodiscard]] int states() const noexcept { return law_.bristle_size(); }
     /// states(), as a count of numbers in an array.
     [[nodiscard]] std::size_t width() const noexcept { return static_cast<std::size_t>(states()); }
 
-    template <class Work>
-    void visit(Work&& work) const {
-        std::visit(
-            [&]<class Friction>(const Friction& friction) {
-                if constexpr (requires { Friction::states; }) {
-                    const auto any = [](const auto& law) { return AnyNormal<>(law); };
-                    work(StatesLaw{std::visit(any, normal_), AnyRateFriction<>(friction)});
-                } else {
-                    std::visit([&](const auto& normal) { work(ContactLaw{normal, friction}); }, normal_);
-                }
-            },
-            friction_);
-    }
-
 private:
-    NormalLaw normal_;
-    FrictionLaw friction_;
-    NormalLaw given_;  // as it was before it was put to use
+    ContactLawOver<double> law_;
+    std::vector<double> landed_;
 };
 
 Contacts contacts_of(const Law& law, const Input& depth, const Input& depth_rate, const Input& slip_velocity,
@@ -387,12 +329,13 @@ void bind_evaluate(nb::class_<Law>& law, std::index_sequence<k...> /*channels*/)
             const Responses out{
                 phase.data(), normal_force.data(), friction_force.data(), bristle_rate.data(), {channels.data()...}};
             const nb::gil_scoped_release free;
-            self.visit([&](const auto& any) { evaluate(any, in, out, count); });
+            // The loop is compiled for each law: a choice for every contact would double its time.
+            with_known_parts(self.law(), [&](const auto& known) { evaluate(known, self.landed(), in, out, count); });
         },
         // Nothing is converted: a copy would be written in place of the array.
         nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
         nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
-        nb::arg().noconvert(), Each<nb::arg, k>(nb::arg().noconvert())...,
+        nb::arg().noconvert(), (static_cast<void>(k), nb::arg().noconvert())...,
         nb::sig("def evaluate(self, *arrays: object) -> None"));
 }
 
@@ -435,7 +378,9 @@ void bind_contact(nb::module_& module) {
                 const Steps out{phase.data(),       normal_force.data(),      friction_force.data(),
                                 new_bristle.data(), tangential_damper.data(), clutch.data()};
                 const nb::gil_scoped_release free;
-                self.visit([&](const auto& law) { step(law, in, dt, tolerance, out, count); });
+                with_law(self.friction(), [&](const auto& friction) {
+                    step(Pair(self.normal(), friction), self.landed(), in, dt, tolerance, out, count);
+                });
             },
             nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(), nb::arg().noconvert(),
             nb::arg().noconvert(), nb::arg(), nb::arg(), nb::arg().noconvert(), nb::arg().noconvert(),

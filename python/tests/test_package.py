@@ -118,6 +118,9 @@ again: float | None = footfall.ContactLaw("hertz:stiffness=1").impact_speed
 drawn: Axes = footfall.plot.height(plt.subplots()[1], run)
 made: list[tuple[Path, str]] = footfall.figures.make(run, Path("figures"))
 mass: float = footfall.Scenario.load("a.toml").simulation.body.mass
+taken: float = run.energy.clutch
+powers: int = law.evaluate(0.0, 0.0, [0, 0]).clutch_power.size
+run.energy.cluch  # type: ignore[attr-defined]
 footfall.run(3)  # type: ignore[arg-type]
 footfall.laws.AzadFeatherstoneNormal(stifness=1)  # type: ignore[call-arg]
 """

@@ -38,12 +38,6 @@ void check_contacts(const Simulation& s) {
                                        s.contacts.size(), s.body.spheres.size()));
     for (std::size_t i = 0; i < s.contacts.size(); ++i) {
         const ContactParameters& c = s.contacts[i];
-        if (c.normal.index() != s.contacts[0].normal.index() || c.friction.index() != s.contacts[0].friction.index())
-            throw InvalidInput(
-                fmt::format("contacts: sphere {} has the laws '{}' and '{}', sphere 0 '{}' and '{}'; the spheres of a "
-                            "body may differ in their parameters, not in their laws",
-                            i, name_of(c.normal), name_of(c.friction), name_of(s.contacts[0].normal),
-                            name_of(s.contacts[0].friction)));
         check(c, fmt::format("sphere {}", i));
     }
 }

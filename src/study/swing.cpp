@@ -4,11 +4,6 @@
 #include <cmath>
 
 namespace footfall {
-namespace {
-
-using L = DrivenLayout;
-
-}  // namespace
 
 Swing::Swing(const Rig& rig, const Timeline& timeline) : half_time_(rig.end_time / 2) {
     if (rig.drag != Drag::mass || !(rig.mass.stiffness > 0)) return;
@@ -18,15 +13,16 @@ Swing::Swing(const Rig& rig, const Timeline& timeline) : half_time_(rig.end_time
     if (speed_ > 0) along_ = drawn / speed_;
 }
 
-double Swing::rate(const DrivenState& y, const Instant& now) const {
-    return along_.dot(Eigen::Vector2d(y[L::velocity], y[L::velocity + 1]) - now.support_velocity);
+void Swing::with_belt(double from, double to) {
+    if (to < half_time_) return;
+    if (!stays_.empty() && from <= stays_.back().to) {
+        stays_.back().to = to;
+    } else {
+        stays_.push_back({from, to});
+    }
 }
 
-double Swing::deflection(const DrivenState& y, const Instant& now) const {
-    return along_.dot(Eigen::Vector2d(y[L::position], y[L::position + 1]) - now.support);
-}
-
-std::optional<StickSlip> Swing::result(const std::vector<RigState>& samples) const {
+std::optional<StickSlip> Swing::result() const {
     std::vector<Turn> turns = large_turns();
     while (!turns.empty() && !turns.front().greatest) turns.erase(turns.begin());
     while (!turns.empty() && !turns.back().greatest) turns.pop_back();
@@ -38,13 +34,8 @@ std::optional<StickSlip> Swing::result(const std::vector<RigState>& samples) con
     const double from = turns.front().time, to = turns.back().time;
     s.period = (to - from) / s.cycles;
     s.amplitude = (s.greatest - s.least) / 2;
-    int with = 0, all = 0;
-    for (const RigState& state : samples) {
-        if (state.time < from || state.time > to) continue;
-        ++all;
-        if (state.slip_velocity.norm() < 0.01 * speed_) ++with;
-    }
-    s.sticking = all > 0 ? static_cast<double>(with) / all : 0;
+    for (const Stay& stay : stays_)
+        s.sticking += std::max(std::min(stay.to, to) - std::max(stay.from, from), 0.0) / (to - from);
     return s;
 }
 

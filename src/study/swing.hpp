@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "footfall/study/drive.hpp"
-#include "study/driven_contact.hpp"
 #include "study/timeline.hpp"
 
 namespace footfall {
@@ -18,26 +17,41 @@ public:
     /// There is something to watch: a mass on a spring, and a belt or support that moves at the end.
     [[nodiscard]] bool watches() const noexcept { return speed_ > 0; }
     /// How fast the mass moves along the belt's way relative to the support [m/s].
-    [[nodiscard]] double rate(const DrivenState& y, const Instant& now) const;
+    [[nodiscard]] double rate(const Eigen::Vector2d& velocity, const Instant& now) const {
+        return along_.dot(velocity - now.support_velocity);
+    }
     /// How far it is along that way from the support [m].
-    [[nodiscard]] double deflection(const DrivenState& y, const Instant& now) const;
+    [[nodiscard]] double deflection(const Eigen::Vector2d& position, const Instant& now) const {
+        return along_.dot(position - now.support);
+    }
     /// The deflection has turned at a greatest or least value.
     void turn(double time, double deflection, bool greatest) { turns_.push_back({time, deflection, greatest}); }
 
+    /// The slip velocity below which a mass goes with the belt, under a law that does not say when it sticks [m/s].
+    [[nodiscard]] double slow() const noexcept { return slow_share * speed_; }
+    /// It goes with the belt from one time to another [s]; told in order.
+    void with_belt(double from, double to);
+
     /// Between the first and the last greatest deflection of the later half; empty where it does not swing.
-    [[nodiscard]] std::optional<StickSlip> result(const std::vector<RigState>& samples) const;
+    [[nodiscard]] std::optional<StickSlip> result() const;
 
 private:
     struct Turn {
         double time, deflection;
         bool greatest;
     };
+    struct Stay {
+        double from, to;  // [s]
+    };
+    static constexpr double slow_share = 0.01;
+
     [[nodiscard]] std::vector<Turn> large_turns() const;
 
     double half_time_;
     double speed_ = 0;
     Eigen::Vector2d along_{0, 0};
     std::vector<Turn> turns_;
+    std::vector<Stay> stays_;
 };
 
 }  // namespace footfall

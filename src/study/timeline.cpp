@@ -1,6 +1,7 @@
 #include "study/timeline.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -8,7 +9,6 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
-#include "footfall/math/dual.hpp"
 #include "footfall/math/error.hpp"
 
 namespace footfall {
@@ -67,9 +67,33 @@ constexpr double least_theta = 1e-100;
 
 }  // namespace
 
-Timeline::Timeline(const Rig& rig, const AnyNormal<>& normal)
-    : rig_(rig), normal_(normal), shortest_period_(shortest_of(rig)) {
+Timeline::Timeline(const Rig& rig, const RigLaw& law)
+    : rig_(rig),
+      law_(law),
+      slopes_(law_.cast<Dual<double, 1>>()),
+      states_(static_cast<std::size_t>(law_.states())),
+      slopes_states_(states_.size()),
+      shortest_period_(shortest_of(rig)) {
     plan();
+}
+
+double Timeline::elastic_force(double s) const { return law_.normal_force({s, 0, {0, 0}}, states_); }
+
+/// Its derivative [N/m^0.5].
+double Timeline::stiffness(double s) const {
+    using D = Dual<double, 1>;
+    if (s == last_s_) return last_stiffness_;
+    last_s_ = s;
+    last_stiffness_ = slopes_.normal_force({D::variable(s, 0), D(0), Vector2<D>::Zero()}, slopes_states_).gradient[0];
+    return last_stiffness_;
+}
+
+/// Positive where the contact carries a load.
+double Timeline::load_guard(const PathValue& depth) const {
+    std::array<double, RigLaw::guards> guards{};
+    const Touch<double> touch{std::sqrt(std::max(depth.value, 0.0)), depth.rate, {0, 0}};
+    law_.fill_guards({Phase::slip}, touch, states_, 0, guards);
+    return guards[RigLaw::load_guard];
 }
 
 double Timeline::spacing() const { return shortest_period_ / looks_per_cycle; }
@@ -119,13 +143,14 @@ void Timeline::plan() {
                                 least, from, to));
             intervals_.push_back({from, to, Phase::slip, false, false, 0});
             largest_load_ = std::max(largest_load_, most);
+            (void)static_root_depth(least);
             const double s = static_root_depth(most);
             largest_depth_ = std::max(largest_depth_, s * s);
             continue;
         }
         if (most > 0) {
             largest_depth_ = std::max(largest_depth_, most);
-            largest_load_ = std::max(largest_load_, normal_.force(std::sqrt(most), 0.0).elastic);
+            largest_load_ = std::max(largest_load_, elastic_force(std::sqrt(most)));
         }
         std::vector<double> cuts = roots([&](double t) { return pressing(t).value; }, from, to);
         // Where the path turns round on the surface without passing through it, s has a kink all the same.
@@ -150,12 +175,9 @@ void Timeline::plan_contacts(double from, double to) {
     const double speed = depth(from).rate;
     // A law whose damping depends on the speed of impact.
     const bool lands = from_surface || intervals_.empty();
-    if (lands && speed > 0) normal_.begin_impact(speed);
+    if (lands && speed > 0) law_.land({0, speed, {0, 0}}, states_);
 
-    const auto load = [&](double t) {
-        const PathValue z = depth(t);
-        return normal_.load(std::sqrt(std::max(z.value, 0.0)), z.rate);
-    };
+    const auto load = [&](double t) { return load_guard(depth(t)); };
     std::vector<double> cuts = roots(load, from, to);
     cuts.insert(cuts.begin(), from);
     cuts.push_back(to);
@@ -169,7 +191,7 @@ void Timeline::plan_contacts(double from, double to) {
 
 double Timeline::static_root_depth(double load) const {
     if (load == last_load_) return last_root_depth_;
-    const auto missing = [&](double log_s) { return normal_.force(std::exp(log_s), 0.0).elastic - load; };
+    const auto missing = [&](double log_s) { return elastic_force(std::exp(log_s)) - load; };
     double low = -100, high = 50;
     if (!(missing(low) < 0 && missing(high) > 0)) {
         throw InvalidInput(fmt::format(
@@ -185,31 +207,24 @@ double Timeline::static_root_depth(double load) const {
     return last_root_depth_;
 }
 
-Instant Timeline::at(const Interval& interval, double theta) const {
-    Instant now;
+Pace Timeline::pace(const Interval& interval, double theta) noexcept {
     const double length = interval.length();
     const double x = std::max(theta, least_theta), y = std::max(1 - theta, least_theta);
-    double after = 0, before = 0;  // the distances in time from the interval's ends
-    if (interval.from_surface && interval.to_surface) {
-        after = length * x * x * (3 - 2 * x);
-        before = length * y * y * (3 - 2 * y);
-        now.time_rate = 6 * length * x * y;
-        now.time_curvature = 6 * length * (1 - 2 * x);
-    } else if (interval.from_surface) {
-        after = length * x * x;
-        before = length * y * (1 + x);
-        now.time_rate = 2 * length * x;
-        now.time_curvature = 2 * length;
-    } else if (interval.to_surface) {
-        after = length * x * (1 + y);
-        before = length * y * y;
-        now.time_rate = 2 * length * y;
-        now.time_curvature = -2 * length;
-    } else {
-        after = length * x;
-        before = length * y;
-        now.time_rate = length;
-    }
+    if (interval.from_surface && interval.to_surface)
+        return {6 * length * x * y, 6 * length * (1 - 2 * x), length * x * x * (3 - 2 * x),
+                length * y * y * (3 - 2 * y)};
+    if (interval.from_surface) return {2 * length * x, 2 * length, length * x * x, length * y * (1 + x)};
+    if (interval.to_surface) return {2 * length * y, -2 * length, length * x * (1 + y), length * y * y};
+    return {length, 0, length * x, length * y};
+}
+
+Instant Timeline::at(const Interval& interval, double theta) const {
+    const double length = interval.length();
+    const Pace pace = Timeline::pace(interval, theta);
+    const double after = pace.after, before = pace.before;
+    Instant now;
+    now.time_rate = pace.rate;
+    now.time_curvature = pace.curvature;
     now.time = after < before ? interval.from + after : interval.to - before;
     if (theta <= 0) now.time = interval.from;
     if (theta >= 1) now.time = interval.to;
@@ -219,9 +234,7 @@ Instant Timeline::at(const Interval& interval, double theta) const {
     const PathValue press = look(rig_.pressing);
     if (rig_.press == Press::load) {
         now.s = static_root_depth(press.value);
-        const Dual<double, 1> f =
-            normal_.cast<Dual<double, 1>>().force(Dual<double, 1>::variable(now.s, 0), Dual<double, 1>(0.0)).elastic;
-        now.s_rate = press.rate / f.gradient[0];
+        now.s_rate = press.rate / stiffness(now.s);
         now.depth = now.s * now.s;
         now.depth_rate = 2 * now.s * now.s_rate;
     } else {

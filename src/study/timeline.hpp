@@ -8,12 +8,14 @@
 // s = sqrt(z) is smooth in theta.
 #pragma once
 
+#include <utility>
 #include <vector>
 
-#include "footfall/law/any_normal.hpp"
 #include "footfall/law/phase.hpp"
+#include "footfall/math/dual.hpp"
 #include "footfall/math/vector.hpp"
 #include "footfall/study/rig.hpp"
+#include "study/rig_law.hpp"
 
 namespace footfall {
 
@@ -41,13 +43,20 @@ struct Instant {
     Eigen::Vector2d belt{0, 0}, belt_rate{0, 0};
 };
 
+/// Of theta against time: dt/dtheta and d2t/dtheta2 [s], and the time from and to the interval's ends [s].
+struct Pace {
+    double rate = 0, curvature = 0;
+    double after = 0, before = 0;
+};
+
 class Timeline {
 public:
     /// Throws InvalidInput where a load is not above zero all the time.
-    Timeline(const Rig& rig, const AnyNormal<>& normal);
+    Timeline(const Rig& rig, const RigLaw& law);
 
     [[nodiscard]] const std::vector<Interval>& intervals() const noexcept { return intervals_; }
     [[nodiscard]] Instant at(const Interval& interval, double theta) const;
+    [[nodiscard]] static Pace pace(const Interval& interval, double theta) noexcept;
     /// theta at a time in the interval.
     [[nodiscard]] static double theta_of(const Interval& interval, double time);
     /// The longest step in theta that sees every cycle of the paths.
@@ -61,16 +70,23 @@ private:
     void plan();
     void plan_contacts(double from, double to);
     [[nodiscard]] double static_root_depth(double load) const;
+    [[nodiscard]] double elastic_force(double s) const;
+    [[nodiscard]] double stiffness(double s) const;
+    [[nodiscard]] double load_guard(const PathValue& depth) const;
     [[nodiscard]] double spacing() const;
     template <class F>
     [[nodiscard]] std::vector<double> roots(F&& f, double from, double to) const;
 
     const Rig& rig_;
-    AnyNormal<> normal_;
+    RigLaw law_;
+    decltype(std::declval<RigLaw>().cast<Dual<double, 1>>()) slopes_;
+    std::vector<double> states_;                  // of the law, as an impact leaves them
+    std::vector<Dual<double, 1>> slopes_states_;  // as a contact begins that is never without load
     double shortest_period_;
     std::vector<Interval> intervals_;
     double largest_depth_ = 0, largest_load_ = 0;
     mutable double last_load_ = 0, last_root_depth_ = 0;
+    mutable double last_s_ = 0, last_stiffness_ = 0;
 };
 
 }  // namespace footfall

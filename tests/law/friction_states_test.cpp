@@ -307,7 +307,7 @@ TYPED_TEST(RateFrictionTest, DualNumbersGiveTheSlopesThatDifferencesGive) {
 TYPED_TEST(RateFrictionTest, UnderALoadThatChangesTheLedgerOfTheContactCloses) {
     check_property([] {
         const RateCase<TypeParam> c;
-        const ContactLaw<AzadFeatherstoneNormal<>, AnyRateFriction<>> contact{{8.5e6, 3.1e3}, c.any};
+        const ContactLaw<AzadFeatherstoneNormal<>, TypeParam> contact{{8.5e6, 3.1e3}, c.law};
         const double s = *uniform(5e-3, 2e-2), z_rate = *uniform(-0.05, 1), z_accel = *uniform(-1e3, 1e3);
         // (13) by hand: F_n = s (K z + D zdot).
         const double s_rate = z_rate / (2 * s);
@@ -315,13 +315,14 @@ TYPED_TEST(RateFrictionTest, UnderALoadThatChangesTheLedgerOfTheContactCloses) {
         const double F_n_rate = s_rate * (3 * 8.5e6 * s * s + 3.1e3 * z_rate) + s * 3.1e3 * z_accel;
         RC_PRE(F_n > 0);
         std::vector<double> rate(c.x.size());
-        const auto r = contact.respond(c.phase, s, z_rate, c.V, c.x, rate, F_n_rate);
+        const auto r = contact.evaluate(Mode{c.phase}, Touch<double>{s, z_rate, c.V}, c.x, rate, F_n_rate);
         RC_ASSERT(near(r.normal_force, F_n, 1e-13 * F_n));
         // Along the motion, by differences of the response itself.
         const auto W = [&](double t) {
             std::vector<double> x = c.x, none(x.size());
             for (std::size_t i = 0; i < x.size(); ++i) x[i] += t * rate[i];
-            return contact.respond(c.phase, s + s_rate * t, z_rate + z_accel * t, c.V, x, none).tangential_spring;
+            const Touch<double> then{s + s_rate * t, z_rate + z_accel * t, c.V};
+            return contact.evaluate(Mode{c.phase}, then, x, none).tangential_spring;
         };
         double fastest = std::abs(F_n_rate) / F_n;
         for (std::size_t i = 0; i < rate.size(); ++i)
@@ -338,10 +339,10 @@ TYPED_TEST(RateFrictionTest, UnderALoadThatChangesTheLedgerOfTheContactCloses) {
 TYPED_TEST(RateFrictionTest, WithoutALoadThereIsNoForceAndTheStatesStandStill) {
     check_property([] {
         const RateCase<TypeParam> c;
-        const ContactLaw<AzadFeatherstoneNormal<>, AnyRateFriction<>> contact{{8.5e6, 3.1e3}, c.any};
+        const ContactLaw<AzadFeatherstoneNormal<>, TypeParam> contact{{8.5e6, 3.1e3}, c.law};
         for (const Phase phase : {Phase::flight, Phase::recovering}) {
             std::vector<double> rate(c.x.size(), 1.0);
-            const auto r = contact.respond(phase, 1e-2, -1.0, c.V, c.x, rate, 1e3);
+            const auto r = contact.evaluate(Mode{phase}, Touch<double>{1e-2, -1.0, c.V}, c.x, rate, 1e3);
             RC_ASSERT(r.friction_force.norm() == 0);
             RC_ASSERT(r.normal_force == 0);
             RC_ASSERT(r.tangential_spring == 0);
@@ -349,8 +350,8 @@ TYPED_TEST(RateFrictionTest, WithoutALoadThereIsNoForceAndTheStatesStandStill) {
             RC_ASSERT(r.stiffness_change_power == 0);
             for (const double value : rate) RC_ASSERT(value == 0);
         }
-        RC_ASSERT(contact.first_phase(1e-2, -1.0) == Phase::recovering);
-        RC_ASSERT(contact.first_phase(1e-2, 1.0) == c.any.first_phase());
+        RC_ASSERT(contact.mode_at({}, Touch<double>{1e-2, -1.0, c.V}, c.x).phase == Phase::recovering);
+        RC_ASSERT(contact.mode_at({}, Touch<double>{1e-2, 1.0, c.V}, c.x).phase == c.any.first_phase());
     });
 }
 

@@ -92,12 +92,6 @@ const std::vector<Wrong>& wrongs() {
          {"max_evaluations", "nan", ">= 1"}},
         {"TooFewContacts", [](Simulation& s) { s.contacts.clear(); }, {"contacts", "0", "1 spheres"}},
         {"TooManyContacts", [](Simulation& s) { s.contacts.push_back(s.contacts[0]); }, {"contacts", "2", "1 spheres"}},
-        {"MixedLaws",
-         [](Simulation& s) {
-             s.body.spheres.push_back(s.body.spheres[0]);
-             s.contacts.push_back({LinearNormal<>{1e5, 1}, s.contacts[0].friction});
-         },
-         {"sphere 1", "linear", "azad-featherstone"}},
         {"NormalStiffnessZero", [](Simulation& s) { normal(s).stiffness = 0; }, {"sphere 0", "stiffness", "0", "> 0"}},
         {"NormalDampingNegative", [](Simulation& s) { normal(s).damping = -1; }, {"sphere 0", "damping", "-1", ">= 0"}},
         {"FrictionStiffnessNan",

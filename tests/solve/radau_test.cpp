@@ -130,6 +130,59 @@ TEST(RadauIIA, ForgetsAStiffTransientInOneStep) {
     EXPECT_NEAR(static_cast<double>(method.end()[0] - std::cos(0.1L)), 0, 1e-8);
 }
 
+// A point is drawn fast onto a curve, in a direction that turns with the point itself: u = (2 + sin 3t)(cos p, sin p),
+// pdot = 1, written as udot = p' x u + rdot u/|u| - lambda (|u| - r) u/|u|, which does not depend on the frame.
+TEST(RadauIIA, StridesWhereItsStiffDirectionTurns) {
+    const Real lambda = 1e10L;
+    const auto rate = [&](const Method::Vector& y, Method::Vector& out) {
+        const Real r = 2 + std::sin(3 * y[0]), r_rate = 3 * std::cos(3 * y[0]), size = std::hypot(y[1], y[2]);
+        const Real along = (r_rate - lambda * (size - r)) / size;
+        out.resize(3);
+        out << 1, along * y[1] - y[2], along * y[2] + y[1];
+    };
+    const auto jacobian = [&](const Method::Vector& y, Method::Matrix& J) {
+        const Real r = 2 + std::sin(3 * y[0]), r_rate = 3 * std::cos(3 * y[0]), size = std::hypot(y[1], y[2]);
+        const Real along = (r_rate - lambda * (size - r)) / size;
+        const Real by_time = (-9 * std::sin(3 * y[0]) + lambda * r_rate) / size, by_size = -(lambda + along) / size;
+        J.setZero(3, 3);
+        for (int i = 1; i <= 2; ++i) {
+            J(i, 0) = by_time * y[i];
+            for (int k = 1; k <= 2; ++k) J(i, k) = by_size * y[i] * y[k] / size;
+            J(i, i) += along;
+        }
+        J(1, 2) -= 1;
+        J(2, 1) += 1;
+    };
+    const Method::Vector weight = Method::Vector::Constant(3, 1e10L);
+    Method::Vector start(3);
+    start << 0, 2, 0;
+    Method method(rate, jacobian, 3);
+    method.begin(start);
+    method.step(0.1L, weight);
+    EXPECT_FALSE(std::isfinite(method.error()));
+    method.follow_turning(true);
+    method.begin(start);
+    for (int k = 1; k <= 20; ++k) {
+        method.step(0.1L, weight);
+        ASSERT_TRUE(std::isfinite(method.error())) << k;
+        const Real t = 0.1L * k, r = 2 + std::sin(3 * t);
+        EXPECT_NEAR(static_cast<double>(method.end()[1] - r * std::cos(t)), 0, 1e-6) << k;
+        EXPECT_NEAR(static_cast<double>(method.end()[2] - r * std::sin(t)), 0, 1e-6) << k;
+        method.finish();
+        method.advance(Method::Vector(method.end()));
+    }
+}
+
+TEST(RadauIIA, StaysWhereItIsInAStepOfNoSize) {
+    Method method = Known::method();
+    method.begin(Known::at(0));
+    method.step(0, fine());
+    method.finish();
+    EXPECT_EQ(method.error(), 0);
+    EXPECT_TRUE((method.end() == Known::at(0)).all());
+    EXPECT_TRUE((method.end_rate() == method.start_rate()).all());
+}
+
 TEST(RadauIIA, SaysSoWhereItsIterationCannotConverge) {
     Method method(
         [](const Method::Vector&, Method::Vector& out) { out.setConstant(2, std::numeric_limits<Real>::quiet_NaN()); },

@@ -216,6 +216,83 @@ TEST(Drive, SlowVelocityRampTracesTheStribeckCurve) {
     }
 }
 
+// A path that leaves the ground's force behind, so that the clamp acts in mid-contact, and comes back to it.
+TEST(Drive, AContactThatIsUnloadedAndLoadedAgainHasTheForceOfTheClamp) {
+    const double mean = 1e-5, A = 9e-6, f = 500, w = 2 * pi * f;
+    for (const FrictionLaw& law : all_friction_laws()) {
+        Rig rig = indented(0.02, SinePart{A, f});
+        rig.pressing.add(ConstantPart{mean});
+        rig.sample_period = 1e-5;
+        rig.drag = Drag::velocity;
+        rig.dragging[0].add(ConstantPart{1e-3});
+        const Drive run = drive(rig, {normal_law, law});
+        for (const RigState& s : run.samples) {
+            const double z = mean + A * std::sin(w * s.time), rate = A * w * std::cos(w * s.time);
+            const double force = 8.5e6 * std::pow(z, 1.5) + 3.1e3 * std::sqrt(z) * rate;
+            EXPECT_NEAR(s.normal_force, std::max(force, 0.0), 1e-9) << name(law) << s.time;
+        }
+        EXPECT_EQ(count(run, EventKind::separation), 10) << name(law);
+        EXPECT_EQ(count(run, EventKind::touchdown), 11) << name(law);
+        EXPECT_LT(run.max_residual, 1e-9) << name(law);
+    }
+}
+
+// ---- the largest forces
+// ----------------------------------------------------------------------------------------------
+
+TEST(Drive, LargestForcesStandBetweenTheSamplesAsWell) {
+    // Spring and damper under a sine: A |k + i b w|. The load: its mean and its amplitude.
+    const double A = 2e-6, f = 20, w = 2 * pi * f, k = 1e5, b = 300;
+    for (const double sample_period : {1e-4, 0.2}) {
+        Rig rig = pressed(0.2, sample_period);
+        rig.pressing.add(SinePart{3, 7, 0.3});
+        rig.dragging[0].add(SinePart{A, f});
+        const Drive run = drive(rig, {normal_law, LinearFriction<>{{k, b, 10, 0}}});
+        EXPECT_NEAR(run.largest_friction_force / (A * std::hypot(k, b * w)), 1, 1e-9) << sample_period;
+        EXPECT_NEAR(run.largest_normal_force / (load + 3), 1, 1e-12) << sample_period;
+    }
+}
+
+TEST(Drive, LargestForceOfAPressIsThatOfSpringAndDamper) {
+    // z = A sin wt: K z^1.5 + D z^0.5 zdot, by golden section in long double.
+    const long double A = 5e-5L, w = 2 * std::numbers::pi_v<long double> * 50;
+    const auto force = [&](long double t) {
+        const long double z = A * std::sin(w * t);
+        return 8.5e6L * std::pow(z, 1.5L) + 3.1e3L * std::sqrt(z) * A * w * std::cos(w * t);
+    };
+    const long double golden = std::numbers::phi_v<long double> - 1;
+    long double low = 1e-4L, high = 0.009L;
+    while (high - low > 1e-12L) {
+        const long double a = high - golden * (high - low), c = low + golden * (high - low);
+        (force(a) < force(c) ? low : high) = force(a) < force(c) ? a : c;
+    }
+    for (const double sample_period : {1e-5, 0.01}) {
+        Rig rig = indented(0.01, SinePart{5e-5, 50});
+        rig.sample_period = sample_period;
+        const double largest = drive(rig, {normal_law, NoFriction<>{}}).largest_normal_force;
+        EXPECT_NEAR(largest / static_cast<double>(force(low)), 1, 1e-12) << sample_period;
+    }
+}
+
+TEST(Drive, LargestForcesDoNotDependOnTheSamplePeriodUnderAnyLaw) {
+    for (const FrictionLaw& law : all_friction_laws()) {
+        const auto run = [&](double sample_period) {
+            Rig rig = pressed(0.6, sample_period);
+            rig.pressing.add(SinePart{4, 3});
+            rig.dragging[0].add(SinePart{2e-4, 2});
+            rig.dragging[1].add(SinePart{1e-4, 3});
+            return drive(rig, {normal_law, law});
+        };
+        const Drive coarse = run(0.6), fine = run(1e-4);
+        EXPECT_EQ(coarse.largest_normal_force, fine.largest_normal_force) << name(law);
+        EXPECT_EQ(coarse.largest_friction_force, fine.largest_friction_force) << name(law);
+        for (const RigState& s : fine.samples) {
+            EXPECT_LE(s.normal_force, coarse.largest_normal_force * (1 + 1e-9)) << name(law);
+            EXPECT_LE(s.friction_force.norm(), coarse.largest_friction_force * (1 + 1e-9)) << name(law) << s.time;
+        }
+    }
+}
+
 // ---- a mass on a belt
 // --------------------------------------------------------------------------------------------------
 
@@ -328,7 +405,26 @@ TEST(Drive, StickSlipHasTheClassicalPeriodOfStaticAndKineticFriction) {
     const double swing = std::hypot(delta, v_b / w);
     EXPECT_NEAR(run.stick_slip->greatest / (mu_k * load / k + swing), 1, 3e-3);
     EXPECT_NEAR(run.stick_slip->amplitude / swing, 1, 3e-3);
-    EXPECT_NEAR(run.stick_slip->sticking, 2 * delta / v_b / period, 0.03);
+    EXPECT_NEAR(run.stick_slip->sticking, 2 * delta / v_b / period, 3e-3);
+    rig.sample_period = 8;
+    const Drive coarse = drive(rig, {normal_law, ResetIntegratorFriction<>{sigma, 200, mu_k / sigma, stiction}});
+    ASSERT_TRUE(coarse.stick_slip.has_value());
+    EXPECT_EQ(coarse.stick_slip->sticking, run.stick_slip->sticking);
+}
+
+TEST(Drive, TheTimeWithTheBeltIsMeasuredUnderALawThatDoesNotSayWhenItSticks) {
+    // Without friction the mass swings under a force that is there from the start: v = a sin wt. It is within 1 % of
+    // the belt's speed a/2 while sin is between 0.495 and 0.505, up and down.
+    const double m = 1, k = 1000, w = std::sqrt(k / m), a = 0.02;
+    for (const double sample_period : {1e-3, 3.0}) {
+        Rig rig = belt(3, m, k, a / 2);
+        rig.sample_period = sample_period;
+        rig.mass.force[0].add(ConstantPart{a * w * m});
+        const Drive run = drive(rig, {normal_law, NoFriction<>{}});
+        ASSERT_TRUE(run.stick_slip.has_value());
+        EXPECT_NEAR(run.stick_slip->period, 2 * pi / w, 1e-9);
+        EXPECT_NEAR(run.stick_slip->sticking, (std::asin(0.505) - std::asin(0.495)) / pi, 1e-9) << sample_period;
+    }
 }
 
 TEST(Drive, SteadySlidingIsNoStickSlip) {
@@ -362,6 +458,54 @@ TEST(Drive, DahlAndLuGreDriftUnderASmallLoadWhereElastoPlasticAndThePapersLawDoN
     EXPECT_GT(drift(LuGreFriction<>{k, 50, 0.4, 0.4, 1e-3, 0}), 0.01);
     EXPECT_LT(std::abs(drift(ElastoPlasticFriction<>{k, 50, 0.4, 0.4, 1e-3, 0, 0.9})), 1e-5);
     EXPECT_LT(std::abs(drift(AzadFeatherstoneFriction<>{{1e5 / root, 500 / root, 0.4, 0}})), 1e-5);
+}
+
+// ---- what the steps cost
+// -------------------------------------------------------------------------------------------------
+
+TEST(Drive, TakesAsManyStepsAsTheMotionAsksForHoweverStiffTheBristleIs) {
+    // As D_t goes to 0 the bristle is drawn to its cone in D_t/K_t, below 1e-9 s here, and the motion goes to that
+    // without damping by an error in proportion to D_t. In the plane the direction in which it is drawn turns.
+    for (const bool planar : {false, true}) {
+        for (const double tolerance : {1e-6, 1e-9, 1e-11}) {
+            Rig rig = pressed(1, 0.1);
+            rig.tolerance = tolerance;
+            rig.max_evaluations = 1e6;
+            rig.pressing.add(SinePart{5, 1.3});
+            rig.dragging[0].add(SinePart{4e-5, 2});
+            if (planar) rig.dragging[1].add(SinePart{2.5e-5, 3, 0.7});
+            const auto run = [&](double damping) {
+                return drive(rig, {normal_law, AzadFeatherstoneFriction<>{{12.75e6, damping, 0.2, 0}}});
+            };
+            const Drive without = run(0);
+            for (const double damping : {0.01, 0.1, 1.0, 10.0, 100.0, 1000.0, 3100.0, 3e4}) {
+                const Drive with = run(damping);
+                EXPECT_LE(with.cost.steps, 12 * without.cost.steps) << damping << ", " << tolerance << ", " << planar;
+                EXPECT_LT(with.max_residual, 1e-8) << damping << ", " << tolerance << ", " << planar;
+                EXPECT_EQ(with.events.size(), without.events.size()) << damping << ", " << tolerance << ", " << planar;
+                const double apart =
+                    (with.samples.back().friction_force - without.samples.back().friction_force).norm();
+                EXPECT_LT(apart, 3e-7 * damping + 10 * tolerance) << damping << ", " << tolerance << ", " << planar;
+            }
+        }
+    }
+}
+
+TEST(Drive, TakesAsManyStepsAsTheMotionAsksForUnderLawsWithTheSizeOfTheSpeedInThem) {
+    // A cycle takes 30 to 150 steps; a bristle a thousand times as stiff moves the contact no differently.
+    for (const double stiffness : {1e3, 1e4, 1e5, 1e6, 1e7}) {
+        for (const FrictionLaw& law : {FrictionLaw(DahlFriction<>{stiffness, 0.2}),
+                                       FrictionLaw(LuGreFriction<>{stiffness, 5, 0.3, 0.2, 1e-3, 0})}) {
+            Rig rig = pressed(1, 0.1);
+            rig.tolerance = 1e-9;
+            rig.pressing.add(SinePart{5, 1.3});
+            rig.dragging[0].add(SinePart{4e-5, 2});
+            rig.dragging[1].add(SinePart{2.5e-5, 3, 0.7});
+            const Drive run = drive(rig, {normal_law, law});
+            EXPECT_LT(run.cost.steps, 800) << name(law) << ", " << stiffness;
+            EXPECT_LT(run.max_residual, 1e-9) << name(law) << ", " << stiffness;
+        }
+    }
 }
 
 // ---- all laws

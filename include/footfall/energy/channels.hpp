@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "footfall/law/contact_law.hpp"
+#include "footfall/law/contact_response.hpp"
 
 namespace footfall {
 

@@ -1,5 +1,4 @@
-// Every law there is. To add one: write its file, add it here (and, for a friction law with a clutch,
-// src/simulate/run_<law>.cpp).
+// Every law there is. To add one: write its file, add it here.
 // The scenario's names, the command line's help, the schema and the typed tests all follow this list.
 #pragma once
 
@@ -27,6 +26,7 @@
 #include "footfall/law/normal/linear.hpp"
 #include "footfall/law/normal/marhefka_orin.hpp"
 #include "footfall/law/normal/tsuji.hpp"
+#include "footfall/law/pair.hpp"
 
 namespace footfall {
 
@@ -43,15 +43,23 @@ using RateFrictionLawOver = std::variant<RegularizedCoulombFriction<S>, DahlFric
                                          ResetIntegratorFriction<S>, HaessigFriedlandFriction<S>>;
 
 /// The friction laws with one bristle and a clutch (friction/spring_damper_clutch.hpp), and none.
-using ClutchFrictionLaw = std::variant<NoFriction<>, AzadFeatherstoneFriction<>, LinearFriction<>>;
+template <class S>
+using ClutchFrictionLawOver = std::variant<NoFriction<S>, AzadFeatherstoneFriction<S>, LinearFriction<S>>;
+using ClutchFrictionLaw = ClutchFrictionLawOver<double>;
 
 namespace detail {
 template <class... First, class... Second>
 std::variant<First..., Second...> joined(const std::variant<First...>*, const std::variant<Second...>*);
 }  // namespace detail
 
-using FrictionLaw = decltype(detail::joined(static_cast<const ClutchFrictionLaw*>(nullptr),
-                                            static_cast<const RateFrictionLawOver<double>*>(nullptr)));
+template <class S>
+using FrictionLawOver = decltype(detail::joined(static_cast<const ClutchFrictionLawOver<S>*>(nullptr),
+                                                static_cast<const RateFrictionLawOver<S>*>(nullptr)));
+using FrictionLaw = FrictionLawOver<double>;
+
+/// The law of one contact, whichever it is.
+template <class S>
+using ContactLawOver = Pair<NormalLawOver<S>, FrictionLawOver<S>>;
 
 /// The laws of one contact, with their parameters.
 struct ContactParameters {

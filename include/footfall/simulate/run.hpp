@@ -9,19 +9,10 @@
 
 #include "footfall/body/body.hpp"
 #include "footfall/energy/ledger.hpp"
-#include "footfall/law/contact_law.hpp"
+#include "footfall/law/mode.hpp"
 #include "footfall/simulate/simulation.hpp"
 
 namespace footfall {
-
-enum class EventKind : std::uint8_t {
-    touchdown,   ///< the normal force begins: z rises through 0, or a recovering contact is loaded again
-    stick,       ///< the clutch takes hold
-    slip,        ///< the clutch lets go
-    separation,  ///< F_n reaches 0
-    recovered,   ///< z returns to 0
-};
-[[nodiscard]] std::string_view name_of(EventKind kind) noexcept;
 
 /// One contact at one moment. Vectors are in the world's frame.
 struct ContactSnapshot {

@@ -31,7 +31,7 @@ struct Simulation {
     Ground ground;
     Eigen::Vector3d gravity{0, 0, -9.81};  ///< [m/s^2], world
     BodyState initial;
-    /// One for each sphere of the body, in its order. All have the same kinds of law; parameters may differ.
+    /// One for each sphere of the body, in its order; they may be under different laws.
     std::vector<ContactParameters> contacts;
     RunOptions options;
 };

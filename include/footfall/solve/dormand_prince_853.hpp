@@ -46,8 +46,9 @@ public:
     void step(F&& f, const Value& h) {
         h_ = h;
         y1_ = y0_;
+        // Looks at c = 1/3 and 0.65 (dip.hpp).
         [&]<std::size_t... I>(std::index_sequence<I...>) {
-            ((stage_state<I + 1>(y1_, motion()), f(y1_, k_[I + 1], I + 1 == 5 || I + 1 == 8)), ...);  // c = 1/3, 0.65
+            ((stage_state<I + 1>(y1_, motion()), f(y1_, k_[I + 1], I + 1 == 5 || I + 1 == 8)), ...);
         }(std::make_index_sequence<stages - 1>{});
         stage_state<stages>(y1_, y0_.size());
     }

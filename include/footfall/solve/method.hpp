@@ -12,6 +12,20 @@
 
 namespace footfall {
 
+/// When the implicit method takes over, and when it gives back. The defaults suit many components, whose implicit steps
+/// are dear.
+struct Switching {
+    int look = 256;     ///< explicit steps between looks
+    double border = 4;  ///< of h |lambda|, where the implicit method is tried; explicit stability reaches to about 6
+    double price = 0;   ///< of an implicit step, in explicit ones; 0: by the number of components
+    int patience = 64;  ///< looks become at most this much rarer, after implicit steps that did not pay
+    /// Of h |lambda|, below which an implicit step is one that the explicit method can do: it takes over, and patience
+    /// begins anew. 0: the price alone decides. Above 0 the implicit method is also tried early where the equations
+    /// have become much stiffer since it did not pay.
+    double gentle = 0;
+    bool follows_turning = false;  ///< RadauIIA::follow_turning
+};
+
 /// For `Method`: the product of Jacobian and vector is formed with the whole Jacobian.
 struct ByJacobian {};
 
@@ -31,15 +45,23 @@ public:
     /// Evaluations of an explicit step.
     static constexpr int stages = DormandPrince853<StateVector, Motion>::stages;
 
-    Method(F f, J jacobian, int motion, D product = {})
+    Method(F f, J jacobian, int motion, D product = {}, const Switching& switching = {})
         : f_(std::move(f)),
           jacobian_(jacobian),
           product_(std::move(product)),
           motion_(motion),
+          switching_(switching),
+          price_(switching.price > 0 ? Value(switching.price) : price(motion)),
           explicit_(motion),
-          implicit_([this](const Vector& y, Vector& rate) { call(y, rate); }, std::move(jacobian), motion) {}
+          implicit_([this](const Vector& y, Vector& rate) { call(y, rate); }, std::move(jacobian), motion) {
+        implicit_.follow_turning(switching.follows_turning);
+    }
     Method(const Method&) = delete;
     Method& operator=(const Method&) = delete;
+
+    /// Every step from the next `begin` on is implicit, whether that pays or not: for measuring the implicit method
+    /// where nothing is stiff.
+    void stay_implicit() noexcept { stiff_ = stays_ = true; }
 
     /// The next step starts at y, after a change of phase.
     void begin(const StateVector& y) {
@@ -114,16 +136,18 @@ public:
 
     [[nodiscard]] bool implicit() const noexcept { return stiff_; }
     /// Nothing is stiff in flight.
-    void return_to_explicit() noexcept { stiff_ = false; }
+    void return_to_explicit() noexcept { stiff_ = stays_; }
 
     /// After a refused step: whether the implicit method has failed to converge so often that the explicit one takes
     /// over.
     [[nodiscard]] bool gives_up(const Value& error) {
         using std::isfinite;
         constexpr int often = 8;
+        if (stays_) return false;
         failures_ = stiff_ && !isfinite(error) ? failures_ + 1 : 0;
         if (failures_ < often) return false;
         failures_ = 0;
+        patience_ = std::min(4 * patience_, switching_.patience);
         leave_implicit();
         return true;
     }
@@ -151,18 +175,39 @@ private:
     // The explicit method gives way once its steps are at the border of its stability, where accuracy would allow
     // larger ones; the implicit one where its steps do not pay for their price.
     void reconsider(const Values& weight) {
-        constexpr int look = 256;     // steps between looks
-        constexpr double border = 4;  // of h |lambda|: the stability region reaches to about 6
+        if (stays_) return;
+        constexpr int settle = 6;  // implicit steps before the price is asked
         ++steps_;
         if (!stiff_) {
-            if (steps_ < look * patience_) return;
+            const bool due = steps_ >= switching_.look * patience_;
+            const bool early = switching_.gentle > 0 && steps_ % switching_.look == 0;
+            if (!due && !early) return;
+            if (due) steps_ = 0;
+            const Value rate = fastest_rate(weight);
+            if (h_ * rate < Value(switching_.border)) return;
+            // After steps that did not pay: early only where it has become much stiffer since.
+            constexpr double much = 4;
+            if (!due && !(rate > Value(much) * refused_rate_)) return;
             steps_ = 0;
-            if (h_ * fastest_rate(weight) < Value(border)) return;
             stiff_ = true;
             explicit_step_ = h_;
+            gained_ = Value(0);
+            refused_rate_ = rate;
             implicit_.begin(start_);
-        } else if (steps_ > 6 && h_ < price(motion_) * explicit_step_) {
-            leave_implicit();
+        } else {
+            const Value gain = h_ / explicit_step_ - price_;
+            gained_ += gain;
+            if (steps_ <= settle) return;
+            if (!(gain > Value(0))) {
+                // After steps that paid, what follows on an event or a fast change need not last.
+                patience_ = gained_ > Value(0) ? 1 : std::min(4 * patience_, switching_.patience);
+                leave_implicit();
+            } else if (switching_.gentle > 0 && steps_ % switching_.look == 0 &&
+                       h_ * fastest_rate(weight) < Value(switching_.gentle)) {
+                patience_ = 1;
+                refused_rate_ = Value(0);
+                leave_implicit();
+            }
         }
     }
 
@@ -180,7 +225,6 @@ private:
 
     void leave_implicit() {
         stiff_ = false;
-        patience_ = std::min(4 * patience_, 64);
         const StateVector y = start_;
         begin(y);
     }
@@ -225,16 +269,21 @@ private:
     J jacobian_;
     D product_;
     int motion_;
+    Switching switching_;
+    Value price_;
     Matrix J_;
     StateVector state_, rate_, start_, end_;
     DormandPrince853<StateVector, Motion> explicit_;
     RadauIIA<S> implicit_;
     Value h_{0}, last_error_{1};
     bool stiff_ = false;
-    int failures_ = 0;  // of the implicit method in a row
-    int steps_ = 0;     // since the last look
-    int patience_ = 1;  // looks are this much rarer, after implicit steps that did not pay
-    Value explicit_step_{0};
+    bool stays_ = false;
+    int failures_ = 0;        // of the implicit method in a row
+    int steps_ = 0;           // since the last look
+    int patience_ = 1;        // looks are this much rarer, after implicit steps that did not pay
+    Value explicit_step_{0};  // before the implicit steps
+    Value gained_{0};         // by the implicit steps, in explicit ones
+    Value refused_rate_{0};   // the fastest rate as the implicit method last took over
 };
 
 }  // namespace footfall

@@ -53,6 +53,10 @@ public:
 
     /// Sets the start of the next step.
     void begin(const Vector& y);
+    /// Where Newton's iteration with the Jacobian of the step's start does not converge, iterates with those of all
+    /// stages. That takes equations of five times the size, and is the only way where a stiff direction turns within
+    /// a step: a Jacobian kept from its start then limits steps to (|lambda| times the rate of turning)^(-1/2).
+    void follow_turning(bool follows) noexcept { follows_turning_ = follows; }
     /// Takes a step of size h from the start. Where Newton's iteration does not converge, `error` is infinite.
     void step(const Value& h, const Values& weight);
     /// The local error of the step in units of what `weight` allows.
@@ -108,10 +112,15 @@ private:
 
     void predict(const Value& h);
     [[nodiscard]] bool solve_stages(const Value& h, const Values& weight);
-    [[nodiscard]] bool solve_derivatives(const Value& h, const Values& weight, Convergence seen);
+    [[nodiscard]] bool solve_stages_together(const Value& h, const Values& weight);
+    template <class Iterate>
+    [[nodiscard]] bool solve_derivatives(Iterate&& iterate, const Values& weight, Convergence seen);
     [[nodiscard]] Increments newton(const Value& h);
+    [[nodiscard]] Increments newton_together(const Value& h);
+    [[nodiscard]] Value add(const Increments& d, const Values& weight);
     [[nodiscard]] Value change_of_derivatives(const Increments& d, const Values& weight) const;
     void integrate(const Value& h);
+    void stand_still();
     void factorize(const Value& h);
     [[nodiscard]] Value estimate(const Value& h, const Values& weight);
 
@@ -149,7 +158,7 @@ private:
     int motion_;
     Vector y0_, y1_, rate0_, rate1_;
     Value h_{0}, error_{0};
-    bool jacobian_is_current_ = false;
+    bool jacobian_is_current_ = false, follows_turning_ = false;
     Matrix J_;
     Stages Z_;      // increments of the stages, y0 + Z_i
     Stages rates_;  // right-hand side at the stages
@@ -180,15 +189,22 @@ void RadauIIA<S>::begin(const Vector& y) {
 template <class S>
 void RadauIIA<S>::step(const Value& h, const Values& weight) {
     h_ = h;
+    if (h == Value(0)) {
+        stand_still();
+        return;
+    }
     if (!jacobian_is_current_) {
         jacobian_(values_of(y0_), J_);
         jacobian_is_current_ = true;
     }
     factorize(h);
-    bool solved = solve_stages(h, weight);
+    const auto solve = [&] {
+        return solve_stages(h, weight) || (follows_turning_ && solve_stages_together(h, weight));
+    };
+    bool solved = solve();
     if (!solved && has_previous_) {  // the extrapolated start was too far off
         has_previous_ = false;
-        solved = solve_stages(h, weight);
+        solved = solve();
     }
     if (!solved) {
         error_ = std::numeric_limits<Value>::infinity();
@@ -197,6 +213,15 @@ void RadauIIA<S>::step(const Value& h, const Values& weight) {
     }
     y1_ = y0_ + Z_[stages - 1];
     error_ = estimate(h, weight);
+}
+
+/// A step of no size: an event at the very start of a step is located by one.
+template <class S>
+void RadauIIA<S>::stand_still() {
+    y1_ = y0_;
+    error_ = Value(0);
+    for (Vector& z : Z_) z.setZero();
+    for (Vector& r : rates_) r = rate0_;
 }
 
 template <class S>
@@ -265,17 +290,12 @@ typename RadauIIA<S>::Increments RadauIIA<S>::newton(const Value& h) {
 template <class S>
 bool RadauIIA<S>::solve_stages(const Value& h, const Values& weight) {
     constexpr int most = 15;  // iterations
-    const auto n = static_cast<Eigen::Index>(motion_);
     predict(h);
     Convergence values, derivatives;
     for (int iteration = 0;; ++iteration) {
         if (iteration == most) return false;
         const Increments d = newton(h);
-        Value change(0);
-        for (std::size_t i = 0; i < stages; ++i) {
-            Z_[i].head(n) += d[i].array();
-            change = std::max<Value>(change, (values_of(d[i]).array().abs() * weight.head(n)).maxCoeff());
-        }
+        const Value change = add(d, weight);
         if (!std::isfinite(change)) return false;
         if constexpr (!std::floating_point<S>) derivatives.see(change_of_derivatives(d, weight));
         const Verdict verdict = values.see(change);
@@ -283,7 +303,71 @@ bool RadauIIA<S>::solve_stages(const Value& h, const Values& weight) {
         if (verdict == Verdict::good) break;
     }
     if constexpr (!std::floating_point<S>) {
-        if (!solve_derivatives(h, weight, derivatives)) return false;
+        if (!solve_derivatives([&] { return newton(h); }, weight, derivatives)) return false;
+    }
+    integrate(h);
+    return true;
+}
+
+/// Adds to the stages' motion; returns the largest change in units of what is allowed.
+template <class S>
+typename RadauIIA<S>::Value RadauIIA<S>::add(const Increments& d, const Values& weight) {
+    const auto n = static_cast<Eigen::Index>(motion_);
+    Value change(0);
+    for (std::size_t i = 0; i < stages; ++i) {
+        Z_[i].head(n) += d[i].array();
+        change = std::max<Value>(change, (values_of(d[i]).array().abs() * weight.head(n)).maxCoeff());
+    }
+    return change;
+}
+
+/// The same as `newton` with the Jacobians of all stages: Newton's method proper, on the equations of all of them.
+template <class S>
+typename RadauIIA<S>::Increments RadauIIA<S>::newton_together(const Value& h) {
+    const auto n = static_cast<Eigen::Index>(motion_);
+    Matrix equations(stages * n, stages * n), slopes;
+    ColumnVector<S> residual(stages * n);
+    Vector y = y0_;
+    for (int i = 0; i < stages; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        y.head(n) = y0_.head(n) + Z_[k].head(n);
+        f_(y, rates_[k]);
+        jacobian_(values_of(y), slopes);
+        residual.segment(i * n, n) = rates_[k].head(n).matrix();
+        for (int j = 0; j < stages; ++j) {
+            const auto l = static_cast<std::size_t>(j);
+            const Value a = Value(radau_table::inverse[k][l]) / h;
+            residual.segment(i * n, n) -= a * Z_[l].head(n).matrix();
+            equations.block(i * n, j * n, n, n) = a * Matrix::Identity(n, n);
+            if (i == j) equations.block(i * n, j * n, n, n) -= slopes;
+        }
+    }
+    const RealFactors<Value> factors(equations);
+    const ColumnVector<S> all = solve_with<S>(factors, residual);
+    Increments d;
+    for (int i = 0; i < stages; ++i) d[static_cast<std::size_t>(i)] = all.segment(i * n, n);
+    return d;
+}
+
+template <class S>
+bool RadauIIA<S>::solve_stages_together(const Value& h, const Values& weight) {
+    constexpr int most = 15;     // iterations
+    constexpr double apart = 2;  // the ratio of changes above which they part; a first step or two may go astray
+    constexpr double enough = 1e-3;
+    predict(h);
+    Value last(0);
+    for (int iteration = 0;; ++iteration) {
+        if (iteration == most) return false;
+        const Value change = add(newton_together(h), weight);
+        if (!std::isfinite(change)) return false;
+        // It converges quadratically: what is left is smaller than this change by more than the ratio to the last.
+        const Value ratio = iteration > 0 ? change / last : Value(1);
+        if (change < Value(enough) || (ratio < Value(1) && change * ratio * ratio < Value(enough))) break;
+        if (iteration > 1 && ratio > Value(apart)) return false;
+        last = change;
+    }
+    if constexpr (!std::floating_point<S>) {
+        if (!solve_derivatives([&] { return newton_together(h); }, weight, {})) return false;
     }
     integrate(h);
     return true;
@@ -292,11 +376,12 @@ bool RadauIIA<S>::solve_stages(const Value& h, const Values& weight) {
 /// Goes on with the iteration for the derivatives alone, which come a little after the values. The values stay, so that
 /// they are those of a run over plain numbers.
 template <class S>
-bool RadauIIA<S>::solve_derivatives(const Value& h, const Values& weight, Convergence seen) {
+template <class Iterate>
+bool RadauIIA<S>::solve_derivatives(Iterate&& iterate, const Values& weight, Convergence seen) {
     constexpr int most = 30;  // iterations: they converge as the values do, from further away
     const auto n = static_cast<Eigen::Index>(motion_);
     for (int iteration = 0; iteration < most; ++iteration) {
-        const Increments d = newton(h);
+        const Increments d = iterate();
         for (std::size_t i = 0; i < stages; ++i) {
             for (Eigen::Index c = 0; c < n; ++c) Z_[i][c] += d[i][c] - value_of(d[i][c]);
         }
@@ -398,7 +483,7 @@ void RadauIIA<S>::advance(const Vector& end) {
     previous_Z_ = Z_;
     previous_y0_ = y0_;
     previous_h_ = h_;
-    has_previous_ = true;
+    has_previous_ = h_ != Value(0);
     y0_ = end;
     rate0_ = rate1_;
     jacobian_is_current_ = false;

@@ -78,15 +78,17 @@ struct StickSlip {
     double amplitude = 0;  ///< half the way between the greatest and the least deflection [m]
     double greatest = 0;   ///< greatest deflection, against the way that the belt drags [m]
     double least = 0;      ///< least deflection [m]
-    double sticking = 0;   ///< share of the time in which the mass goes with the belt to within 1 % of its speed [1]
+    /// Share of the time in Phase::stick; under a law without that phase, in which the mass goes with the belt to
+    /// within 1 % of its speed [1].
+    double sticking = 0;
 };
 
 /// One run of a rig under one pair of laws.
 struct Drive {
     std::vector<RigState> samples;  ///< at multiples of the sample period, the first and the last moment included
     std::vector<RigEvent> events;
-    double largest_normal_force = 0;      ///< over the samples and events [N]
-    double largest_friction_force = 0;    ///< over the samples and events [N]
+    double largest_normal_force = 0;      ///< at any time, whatever the sample period [N]
+    double largest_friction_force = 0;    ///< at any time, whatever the sample period [N]
     std::optional<StickSlip> stick_slip;  ///< where a mass swings against a moving belt or support
     double energy_scale = 0;              ///< the largest magnitude of the account [J]
     double max_residual = 0;              ///< the largest |balance - initial balance| / energy_scale after a step

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "footfall/energy/channels.hpp"
-#include "footfall/law/contact_law.hpp"
+#include "footfall/law/phase.hpp"
 #include "footfall/law/registry.hpp"
 #include "footfall/math/error.hpp"
 #include "footfall/study/go_on.hpp"

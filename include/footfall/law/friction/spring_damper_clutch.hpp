@@ -92,8 +92,10 @@ struct SpringDamperClutch {
         const S per_size = S(1) / ((D_ts + C_V) * size);
         const Vector2<S> force = phi * ((D_ts * mu * phi_n + C_V * size) * per_size);  // (27), (30), (31)
         const Vector2<S> V_clutch = phi * (-scale * (size - mu * phi_n) * per_size);
-        // Of (31) and (30), the one that does not cancel.
-        return {force, D_ts < C_V ? Vector2<S>(V - V_clutch) : Vector2<S>(-(force + K_t * u) / D_t), V_clutch};
+        // Of (31) and (30), the one that does not cancel: (31) does where the damper carries little.
+        constexpr double little = 1e-5;
+        const bool by_30 = D_ts < C_V || D_t * norm(V) < S(little) * mu * phi_n;
+        return {force, by_30 ? Vector2<S>(V - V_clutch) : Vector2<S>(-(force + K_t * u) / D_t), V_clutch};
     }
 
     /// Positive while the clutch slips, and zero where it takes hold again.

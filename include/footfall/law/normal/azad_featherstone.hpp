@@ -5,7 +5,7 @@
 // Units: z m, zdot m/s, K_n N/m^1.5, D_n N s/m^1.5, f N.
 // Stored energy: (2/5) K_n z^(5/2)                                                                (17)
 // Dissipated power: f_D zdot, f_D the second term                                                 (16)
-// The clamp f >= 0 of (14) is applied by ContactLaw, for every normal law alike.
+// The clamp f >= 0 of (14) is applied by Pair, for every normal law alike.
 // It cannot represent adhesion, plasticity, or z comparable with the radius (area (7), not (6)).
 // The same law as Kuwabara & Kono (1987) and Brilliantov et al. (1996), with D_n = (3/2) A K_n.
 #pragma once

@@ -12,9 +12,11 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "footfall/law/normal/hunt_crossley.hpp"
 #include "footfall/law/normal/restated.hpp"
+#include "footfall/math/value_of.hpp"
 
 namespace footfall {
 
@@ -34,16 +36,22 @@ struct DampedForRestitution {
     /// To be called at every touchdown with zdot [m/s].
     constexpr void begin_impact(const S& speed) noexcept { impact_speed = speed; }
 
-    /// chi, damping of this impact [N s/m^(n+1)].
-    [[nodiscard]] constexpr S damping() const noexcept {
-        const S& speed = select(impact_speed > slowest_impact, impact_speed, slowest_impact);
-        return Damping::chi(stiffness, restitution, speed);
+    /// chi, damping of an impact that began at `speed` [N s/m^(n+1)].
+    [[nodiscard]] constexpr S damping(const S& speed) const noexcept {
+        return Damping::chi(stiffness, restitution, select(speed > slowest_impact, speed, slowest_impact));
     }
+    [[nodiscard]] constexpr S damping() const noexcept { return damping(impact_speed); }
 
     /// This impact under Hunt & Crossley's law.
-    [[nodiscard]] constexpr HuntCrossleyNormal<S> restated() const noexcept {
-        return {stiffness, damping(), n, n, S(1)};
+    [[nodiscard]] constexpr HuntCrossleyNormal<S> restated() const noexcept { return restated({&impact_speed, 1}); }
+
+    // The speed of impact as a state of the contact (normal_part.hpp).
+    static constexpr int states = 1;
+    [[nodiscard]] constexpr HuntCrossleyNormal<S> restated(std::span<const S> x) const noexcept {
+        return {stiffness, damping(x[0]), n, n, S(1)};
     }
+    static constexpr void land(const S& speed, std::span<S> x) noexcept { x[0] = speed; }
+    [[nodiscard]] double state_size(int) const noexcept { return static_cast<double>(value_of(slowest_impact)); }
 
     template <class T>
     [[nodiscard]] constexpr RestatedNormal<DampedForRestitution<Damping, T>> cast() const noexcept {

@@ -2,6 +2,8 @@
 // the force, where its sign changes and the energy are computed there, and not a second time.
 #pragma once
 
+#include <span>
+
 #include "footfall/law/normal/normal_force.hpp"
 
 namespace footfall {
@@ -24,6 +26,24 @@ struct RestatedNormal : Parameters {
 
     /// Energy in the normal spring [J].
     [[nodiscard]] constexpr S stored_energy(const S& s) const noexcept { return this->restated().stored_energy(s); }
+
+    // The same with states of the contact, where the parameters that are restated follow from them.
+    template <int Over = 0>
+    [[nodiscard]] constexpr NormalForce<S> force(const S& s, const S& z_rate, std::span<const S> x) const noexcept
+        requires requires { Parameters::states; }
+    {
+        return this->restated(x).template force<Over>(s, z_rate);
+    }
+    [[nodiscard]] constexpr S load(const S& s, const S& z_rate, std::span<const S> x) const noexcept
+        requires requires { Parameters::states; }
+    {
+        return this->restated(x).load(s, z_rate);
+    }
+    [[nodiscard]] constexpr S stored_energy(const S& s, std::span<const S> x) const noexcept
+        requires requires { Parameters::states; }
+    {
+        return this->restated(x).stored_energy(s);
+    }
 };
 
 }  // namespace footfall

@@ -1,71 +1,56 @@
-// The internal states of a friction law (friction/rate_friction.hpp) over a time step of somebody else's simulator.
+// The internal states of a friction law (friction/rate_friction.hpp) while load and slip velocity are held.
 //
-// The load F_n and the slip velocity V are those that the host holds over its step. The states obey xdot = h(V, x),
-// which is integrated by the pair of order 3(2) of Bogacki & Shampine 1989 (Applied Mathematics Letters 2:321), with
-// sub-steps as its error asks: stable for every step of the host, since the error grows before an instability does.
-// Where the margin of a law that jumps falls to zero, a sub-step is made to end there, and the law jumps.
+// The states obey xdot = h(V, x), which is integrated by the pair of order 3(2) of Bogacki & Shampine 1989 (Applied
+// Mathematics Letters 2:321), with sub-steps as its error asks: stable for every step of the host, since the error
+// grows before an instability does. Where the margin of a law that jumps falls to zero, a sub-step is made to end
+// there, and the law jumps.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 
+#include "footfall/law/friction/held_friction.hpp"
 #include "footfall/law/friction/rate_friction.hpp"
 
 namespace footfall {
 
-/// What friction does over one time step.
-struct FrictionStateStep {
-    Phase phase = Phase::flight;                                    ///< at the end of the step
-    Vector2<double> mean_friction_force = Vector2<double>::Zero();  ///< F_f, its mean over the step [N]
-    double tangential_damper = 0;                                   ///< taken by the damper over the step [J]
-    double clutch = 0;                                              ///< taken by the clutch over the step [J]
-    double left = 0;  ///< time that the step has not covered [s]: > 0 where it took `most_sub_steps`
-};
-
-/// Advances the states of contacts under one friction law, of double, or AnyRateFriction.
-template <class Friction>
-class FrictionStateStepper {
+/// A friction law with a force in proportion to the load.
+template <RateFriction Law>
+class HeldFriction<Law> {
 public:
-    /// Sub-steps of one step: about a second of work for each contact. More are not taken.
-    static constexpr int most_sub_steps = 1'000'000;
+    /// `tolerance` is relative to the law's own sizes of its states.
+    HeldFriction(const Law& law, double tolerance) : law_(law), tolerance_(tolerance) {}
 
-    /// `tolerance`, of each sub-step, is relative to the law's own sizes of its states: from 1e-12 to 1e-2.
-    explicit FrictionStateStepper(const Friction& friction, double tolerance = 1e-4)
-        : friction_(friction), tolerance_(tolerance) {}
-
-    /// Advances the states `x` of a contact over `dt` [s], > 0, under the load F_n [N] and the slip velocity V [m/s].
-    /// `phase` is stick or slip where the contact was loaded before, else flight. Without a load the states become
-    /// those of a new contact. A step of which something is `left` has no meaning: take shorter ones.
-    [[nodiscard]] FrictionStateStep operator()(Phase phase, double F_n, const Vector2<double>& V, std::span<double> x,
-                                               double dt) const noexcept {
-        FrictionStateStep step;
-        if (!(F_n > 0)) {
+    /// Without a load the states become those of a new contact.
+    void advance(const Load<double>& load, const Vector2<double>& V, double dt, std::span<double> states,
+                 ContactStep& step) const noexcept {
+        const std::span<double> x = states.first(Law::states);
+        if (step.phase != Phase::stick && step.phase != Phase::slip) {
             std::fill(x.begin(), x.end(), 0.0);
-            return step;
+            return;
         }
-        step.phase = phase == Phase::stick || phase == Phase::slip ? phase : friction_.first_phase();
         Integrals total{};
         double left = dt, proposed = dt;
         bool entered = false;  // the phase has just begun, where the margin is often zero
         for (int n = 0; left > 0 && n < most_sub_steps; ++n) {
-            if (!entered && !(friction_.margin(step.phase, V, x) > 0)) {
-                const Phase next = friction_.jump(step.phase, V, x);
-                entered = next != step.phase;
-                step.phase = next;
+            if (!entered && !(margin(step.phase, V, x) > 0)) {
+                const FrictionChange<double> change = part().cross(step.phase, moving(V), one_newton, x);
+                entered = change.phase != step.phase;
+                step.phase = change.phase;
+                total[3] += change.clutch;
             }
             const double h = sub_step(step.phase, V, x, std::min(left, proposed), dt, total, proposed);
             entered = false;
             left = h < left ? left - h : 0;
         }
+        const double F_n = load.force();
         step.mean_friction_force = F_n / dt * Vector2<double>(total[0], total[1]);
         step.tangential_damper = F_n * total[2];
         step.clutch = F_n * total[3];
         step.left = left;
-        return step;
     }
 
 private:
@@ -77,10 +62,19 @@ private:
         Integrals rest;
     };
 
+    /// All is in proportion to the load: it is followed under this one.
+    static constexpr Load<double> one_newton{1, 1};
+
+    [[nodiscard]] FrictionPart<Law> part() const noexcept { return {law_}; }
+    [[nodiscard]] static Touch<double> moving(const Vector2<double>& V) noexcept { return {0, 0, V}; }
+    [[nodiscard]] double margin(Phase phase, const Vector2<double>& V, std::span<const double> x) const noexcept {
+        return part().margin(phase, moving(V), one_newton, 0, x);
+    }
     [[nodiscard]] Rates rates(Phase phase, const Vector2<double>& V, std::span<const double> x) const noexcept {
         Rates r;
-        const RateResponse<double> t = friction_.respond(phase, V, x, std::span(r.x).first(x.size()));
-        r.rest = {t.traction.x(), t.traction.y(), t.damper_power, -t.traction.dot(V) - t.stored_rate - t.damper_power};
+        const FrictionAnswer<double> t =
+            part().respond(phase, moving(V), one_newton, x, std::span(r.x).first(x.size()));
+        r.rest = {t.force.x(), t.force.y(), t.damper_power, t.clutch_power};
         return r;
     }
 
@@ -88,7 +82,7 @@ private:
     double sub_step(Phase phase, const Vector2<double>& V, std::span<double> x, double h, double dt, Integrals& total,
                     double& proposed) const noexcept {
         const std::size_t n = x.size();
-        const double shortest = 1e-12 * dt, before = friction_.margin(phase, V, x);
+        const double shortest = 1e-12 * dt, before = margin(phase, V, x);
         const Rates k1 = rates(phase, V, x);
         States at{};
         const auto moved = [&](double a, const Rates& r) {
@@ -106,7 +100,7 @@ private:
                 const double error =
                     h * (-5.0 / 72 * k1.x[i] + 1.0 / 12 * k2.x[i] + 1.0 / 9 * k3.x[i] - 1.0 / 8 * k4.x[i]);
                 // A NaN counts as wrong.
-                const double relative = std::abs(error) / (tolerance_ * friction_.state_size(static_cast<int>(i)));
+                const double relative = std::abs(error) / (tolerance_ * law_.state_size(static_cast<int>(i)));
                 wrong = relative <= wrong ? wrong : relative;
             }
             const double factor = 0.9 / std::cbrt(std::max(wrong, 1e-3));
@@ -114,7 +108,7 @@ private:
                 h *= std::isfinite(wrong) ? std::clamp(factor, 0.1, 0.9) : 0.1;
                 continue;
             }
-            const double after = friction_.margin(phase, V, end);
+            const double after = margin(phase, V, end);
             if (after < -tolerance_ * std::abs(before) && after < before && h > shortest) {
                 // A secant to where the phase ends; one that ends as it begins ends soon.
                 h *= before > 0 ? std::clamp(before / (before - after), 0.05, 0.95) : 0.05;
@@ -129,7 +123,10 @@ private:
         }
     }
 
-    Friction friction_;
+    /// About a second of work for each contact. More are not taken.
+    static constexpr int most_sub_steps = 1'000'000;
+
+    Law law_;
     double tolerance_;
 };
 

@@ -1,4 +1,4 @@
-#include "footfall/simulate/run.hpp"
+#include "footfall/law/mode.hpp"
 
 namespace footfall {
 

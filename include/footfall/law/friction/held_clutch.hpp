@@ -1,8 +1,7 @@
-// The bristle of one contact over a time step of somebody else's simulator.
+// The bristle of a contact while depth, load and slip velocity are held.
 //
-// Depth, its rate and the slip velocity V are those that the host holds over its step. The bristle then relaxes at the
-// rate K_t/D_t or so, for the paper's numbers within a quarter of a millisecond: an explicit step on `bristle_rate` is
-// unstable beyond 2 D_t/K_t. What is done here is stable for every step:
+// It relaxes at the rate K_t/D_t or so, for the paper's numbers within a quarter of a millisecond: an explicit step on
+// `bristle_rate` is unstable beyond 2 D_t/K_t. What is done here is stable for every step:
 //
 //   no load   udot = -(K_t/D_t) u                 an exponential, exact                                  (31)
 //   stick     udot = V, until |f_stick| = mu F_n  a straight line to a time that is a root of a quadratic    (32)
@@ -17,48 +16,28 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include <Eigen/LU>
 
-#include "footfall/law/contact_law.hpp"
+#include "footfall/law/friction/held_friction.hpp"
 #include "footfall/math/dual.hpp"
 #include "footfall/math/vector.hpp"
 
 namespace footfall {
 
-/// What a contact does over one time step.
-struct BristleStep {
-    Phase phase = Phase::flight;                                    ///< at the end of the step
-    double normal_force = 0;                                        ///< F_n [N], >= 0, held over the step
-    Vector2<double> bristle = Vector2<double>::Zero();              ///< u at the end of the step [m]
-    Vector2<double> mean_friction_force = Vector2<double>::Zero();  ///< F_f, its mean over the step [N]
-    double tangential_damper = 0;                                   ///< taken by the damper over the step [J]
-    double clutch = 0;                                              ///< taken by the clutch over the step [J]
-    double left = 0;  ///< time that the step has not covered [s]: > 0 where it took too many sub-steps
-
-    /// What follows from something that is not a number.
-    [[nodiscard]] static BristleStep nothing() noexcept {
-        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-        return {Phase::flight, nan, {nan, nan}, {nan, nan}, nan, nan};
-    }
-};
-
-/// A friction law with a bristle, advanced while depth, load and slip velocity are held.
-template <class Friction>
-class HeldFriction {
+/// A friction law with a bristle.
+template <ClutchFriction Friction>
+class HeldFriction<Friction> {
 public:
-    /// What does not change during the step: s = sqrt(z), phi_n = F_n / scale, scale = s^ScalePower.
-    struct Held {
-        double scale, phi_n;
-        Vector2<double> V;
-    };
-
     HeldFriction(const Friction& friction, double tolerance)
         : friction_(friction), dual_(friction.template cast<Slope>()), tolerance_(tolerance) {}
 
-    /// Advances step.bristle over dt from step.phase, and books what is taken.
-    void advance(const Held& held, double dt, BristleStep& step) const noexcept {
+    void advance(const Load<double>& load, const Vector2<double>& V, double dt, std::span<double> x,
+                 ContactStep& all) const noexcept {
+        const Held held{load.scale, load.over_scale, V};
+        Step step{all, vector_at<double>(x)};
         if (step.phase == Phase::flight || step.phase == Phase::recovering) {
             recover(held, dt, step);
         } else if (friction_.plastic()) {
@@ -66,10 +45,19 @@ public:
         } else {
             follow(held, dt, step);
         }
-        if (!step.bristle.allFinite()) step = BristleStep::nothing();  // numbers beyond a double
+        put_vector(x, 0, step.bristle);
+        all = step.bristle.allFinite() ? ContactStep(step) : ContactStep::nothing(x);  // numbers beyond a double
     }
 
 private:
+    /// What does not change during the step: scale = s^ScalePower, s = sqrt(z), phi_n = F_n / scale.
+    struct Held {
+        double scale, phi_n;
+        Vector2<double> V;
+    };
+    struct Step : ContactStep {
+        Vector2<double> bristle;
+    };
     using Slope = Dual<double, 2>;
     using DualFriction = decltype(std::declval<const Friction&>().template cast<Slope>());
 
@@ -77,7 +65,7 @@ private:
     using Rates = Eigen::Matrix<double, 6, 1>;
     static constexpr int force_at = 2, damper_at = 4, clutch_at = 5;
 
-    void recover(const Held& held, double dt, BristleStep& step) const noexcept {
+    void recover(const Held& held, double dt, Step& step) const noexcept {
         const Friction& friction = friction_;
         const double stored = friction.stored_energy(held.scale, step.bristle);
         if (friction.damping > 0) {
@@ -92,7 +80,7 @@ private:
 
     // Damped: stick and slip ------------------------------------------------------------------------------------------
 
-    void follow(const Held& held, double dt, BristleStep& step) const noexcept {
+    void follow(const Held& held, double dt, Step& step) const noexcept {
         const Friction& friction = friction_;
         Vector2<double> impulse = Vector2<double>::Zero();
         double left = dt, proposed = dt;
@@ -232,7 +220,7 @@ private:
 
     /// The bristle goes straight inside |u| <= rho = mu phi_n / K_t and turns towards V on the rim: with theta the
     /// angle between them, thetadot = -(|V|/rho) sin(theta), so tan(theta/2) decays exponentially.
-    void follow_plastic(const Held& held, double dt, BristleStep& step) const noexcept {
+    void follow_plastic(const Held& held, double dt, Step& step) const noexcept {
         const Friction& friction = friction_;
         const double rho = friction.coefficient * held.phi_n / friction.stiffness;
         const double spring = held.scale * friction.stiffness;
@@ -270,50 +258,6 @@ private:
     Friction friction_;
     DualFriction dual_;
     double tolerance_;
-};
-
-/// Advances bristles under one contact law. `Law` is a ContactLaw over double whose friction has a bristle or none.
-template <class Law>
-class BristleStepper {
-public:
-    /// `tolerance`, of each sub-step, is relative to the size of the bristle and of the force: from 1e-12 to 1e-2.
-    explicit BristleStepper(const Law& law, double tolerance = 1e-4) : law_(law), friction_(law.friction, tolerance) {}
-
-    /// The step from the bristle `u` [m] over `dt` [s], > 0, with depth [m], its rate [m/s] and the slip velocity V
-    /// [m/s] held. Where one of them is not finite, nor is what comes out.
-    [[nodiscard]] BristleStep operator()(double depth, double depth_rate, const Vector2<double>& V,
-                                         const Vector2<double>& u, double dt) const noexcept {
-        if (!(std::isfinite(depth) && std::isfinite(depth_rate) && V.allFinite() && u.allFinite()))
-            return BristleStep::nothing();
-        const double s = depth > 0 ? std::sqrt(depth) : 0;
-        BristleStep step{.bristle = u};
-        if (depth > 0) {
-            step.phase = law_.phase_of(s, depth_rate, V, u);
-            if (step.phase != Phase::recovering) step.normal_force = law_.normal.force(s, depth_rate).total();
-        }
-        if constexpr (Law::has_clutch) {
-            const double phi_n =
-                step.phase == Phase::flight ? 0 : law_.normal.template force<Law::ScalePower>(s, depth_rate).total();
-            friction_.advance({law_.friction.scale(s), phi_n, V}, dt, step);
-        }
-        return step;
-    }
-
-private:
-    struct Nothing {
-        Nothing(const auto&, double) noexcept {}
-    };
-    template <class Friction, bool has_clutch>
-    struct Advancing {
-        using type = HeldFriction<Friction>;
-    };
-    template <class Friction>
-    struct Advancing<Friction, false> {
-        using type = Nothing;
-    };
-
-    Law law_;
-    typename Advancing<decltype(Law::friction), Law::has_clutch>::type friction_;
 };
 
 }  // namespace footfall

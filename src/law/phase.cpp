@@ -1,4 +1,4 @@
-#include "footfall/law/contact_law.hpp"
+#include "footfall/law/phase.hpp"
 
 namespace footfall {
 

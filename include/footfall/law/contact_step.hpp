@@ -1,0 +1,53 @@
+// One contact over a time step of somebody else's simulator.
+//
+// Depth, its rate and the slip velocity V are those that the host holds over its step; the load and the mode follow
+// from them. The states of friction then relax on their own, often much faster than the step: HeldFriction says how
+// each kind of law advances them, stably for every step (friction/held_clutch.hpp, friction/held_states.hpp).
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+#include <variant>
+
+#include "footfall/law/friction/held_clutch.hpp"
+#include "footfall/law/friction/held_friction.hpp"
+#include "footfall/law/friction/held_states.hpp"
+#include "footfall/law/pair.hpp"
+
+namespace footfall {
+
+/// Advances contacts under one law: a Pair over double.
+template <class Law>
+class ContactStepper {
+public:
+    /// `tolerance`, of each sub-step, is relative to the size of the states of friction, and of the force where they
+    /// are a bristle: from 1e-12 to 1e-2.
+    explicit ContactStepper(const Law& law, double tolerance = 1e-4) : law_(law), friction_(law.friction, tolerance) {}
+
+    /// Advances `x`, the states of a contact, over `dt` [s], > 0, with depth [m], its rate [m/s] and the slip velocity
+    /// V [m/s] held. `was` is the phase in which the contact has been, flight where that is not known. States of
+    /// friction other than a bristle become those of a new contact where there is no load. Where one of the numbers is
+    /// not finite, nor is what comes out. A step of which something is `left` has no meaning: take shorter ones.
+    [[nodiscard]] ContactStep operator()(Phase was, double depth, double depth_rate, const Vector2<double>& V,
+                                         std::span<double> x, double dt) const noexcept {
+        bool finite = std::isfinite(depth) && std::isfinite(depth_rate) && V.allFinite();
+        for (const double state : x) finite = finite && std::isfinite(state);
+        if (!finite) return ContactStep::nothing(x);
+        const Touch<double> t{root_of_depth(depth), depth_rate, V};
+        const Mode mode = law_.mode_at({was}, t, x);
+        ContactStep step{.phase = mode.phase};
+        if (mode.loaded()) step.normal_force = law_.normal_force(t, x);
+        const Load<double> load{law_.scale_at(t.root_depth), mode.touches() ? law_.load_at(t, x).over_scale : 0};
+        friction_.advance(load, V, dt, x.subspan(static_cast<std::size_t>(law_.normal_state_count())), step);
+        return step;
+    }
+
+private:
+    Law law_;
+    HeldFriction<decltype(Law::friction)> friction_;
+};
+
+}  // namespace footfall
