@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "footfall/simulate/run.hpp"
+#include "footfall/surface/plane.hpp"
 
 namespace footfall {
 
@@ -60,7 +61,7 @@ void check_penetration(const Simulation& s) {
 double initial_depth(const Simulation& s, std::size_t sphere) {
     const Sphere& p = s.body.spheres[sphere];
     const Eigen::Vector3d center = s.initial.position + s.initial.orientation * p.center;
-    return p.radius + s.ground.height - s.ground.normal.dot(center);
+    return depth_in_plane(s.ground.normal.dot(center), p.radius, s.ground.height);
 }
 
 double initial_depth_rounding(const Simulation& s) {
