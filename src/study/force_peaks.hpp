@@ -72,7 +72,7 @@ private:
         const double at_start = rise(0), at_end = rise(1);
         if (!(at_start > 0) || !(at_end < 0)) return;                    // it is at an end, which has been seen
         constexpr int digits = std::numeric_limits<double>::digits / 2;  // a maximum's place is known to no more
-        (void)reached(step.at(zero_between(rise, 0, 1, at_start, at_end, digits)));
+        (void)reached(step.at(zero_between(rise, 0.0, 1.0, at_start, at_end, digits)));
     }
 
     const RigSystem& system_;

@@ -20,7 +20,7 @@ RigSystem::RigSystem(const Rig& rig, const Timeline& timeline, const RigLaw& law
       timeline_(timeline),
       interval_(timeline.intervals().front()),
       hybrid_(Plant(rig_, timeline_, interval_), {law}),
-      dual_(hybrid_.cast<Direction>()),
+      derivatives_(hybrid_),
       all_guards_(HybridType::Guards::Ones(HybridType::guards_per_contact)),
       seen_(State::Zero(hybrid_.size())) {
     set_floors();

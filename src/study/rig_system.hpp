@@ -15,7 +15,7 @@
 
 #include <Eigen/Core>
 
-#include "footfall/math/dual.hpp"
+#include "footfall/simulate/derivatives.hpp"
 #include "footfall/simulate/hybrid.hpp"
 #include "footfall/solve/method.hpp"
 #include "footfall/solve/plain_system.hpp"
@@ -90,7 +90,9 @@ public:
 
     void evaluate(const State& y, State& rate, Guards* guards);
     template <class Vector, class Matrix>
-    std::int64_t jacobian(const Vector& y, Matrix& J);
+    std::int64_t jacobian(const Vector& y, Matrix& J) {
+        return derivatives_.jacobian(hybrid_, y, J);
+    }
 
     void weights(const State& y, State& weight);
     [[nodiscard]] double longest_step(const State&) const { return timeline_.longest_step(interval_); }
@@ -112,10 +114,6 @@ public:
     GoesOn<double> jump(std::span<const int> guards, State& y, std::vector<bool>& armed);
 
 private:
-    static constexpr int directions = 8;
-    using Direction = Dual<double, directions>;
-    using DualHybrid = decltype(std::declval<HybridType>().cast<Direction>());
-
     void set_floors();
     [[nodiscard]] double largest_depth() const noexcept;
     void see(const State& y);
@@ -129,7 +127,7 @@ private:
     Listener listener_ = [](EventKind, const State&) {};
     Interval interval_;
     HybridType hybrid_;
-    DualHybrid dual_;
+    Derivatives<HybridType> derivatives_;
     HybridType::Guards all_guards_;
 
     std::optional<Touch<double>> before_;  // at the end of the last interval
@@ -141,26 +139,5 @@ private:
     double last_switch_ = -1;           // [s]
     int switches_ = 0;                  // in a row without time going on
 };
-
-/// d(rate)/dy of the motion, exact, by dual numbers; returns what it cost, in evaluations.
-template <class Vector, class Matrix>
-std::int64_t RigSystem::jacobian(const Vector& y, Matrix& J) {
-    const int n = motion_size();
-    dual_.take_modes(hybrid_);
-    J.resize(n, n);
-    DualHybrid::State point = y.template cast<Direction>(), rate = point;
-    std::int64_t cost = 0;
-    for (int first = 0; first < n; first += directions) {
-        const int last = std::min(first + directions, n);
-        for (int c = first; c < last; ++c) point[c] = Direction::variable(y[c], c - first);
-        dual_.evaluate(point, rate);
-        for (int c = first; c < last; ++c) {
-            for (int r = 0; r < n; ++r) J(r, c) = rate[r].gradient[static_cast<std::size_t>(c - first)];
-            point[c] = Direction(y[c]);
-        }
-        cost += directions;
-    }
-    return cost;
-}
 
 }  // namespace footfall

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <limits>
 
-#include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
 #include "footfall/simulate/budget.hpp"
+#include "footfall/solve/first_zero.hpp"
 #include "footfall/solve/watcher.hpp"
 #include "study/rig_system.hpp"
 #include "study/swing.hpp"
@@ -18,16 +18,6 @@ namespace footfall {
 
 using RigWatcher = Watcher<RigSystem::State>;
 using RigStep = SolverStep<RigSystem::State>;
-
-/// The zero of f between a and b, where it has different signs.
-template <class F>
-[[nodiscard]] double zero_between(F&& f, double a, double b, double f_a, double f_b,
-                                  int digits = std::numeric_limits<double>::digits) {
-    std::uintmax_t iterations = 60;
-    const auto r = boost::math::tools::toms748_solve(f, a, b, f_a, f_b,
-                                                     boost::math::tools::eps_tolerance<double>(digits), iterations);
-    return (r.first + r.second) / 2;
-}
 
 /// Keeps samples, events and the account of a drive.
 class RigRecording final : public RigWatcher {
@@ -166,7 +156,8 @@ private:
         };
         const double before = rate(step.start()), after = rate(step.end());
         if ((before > 0) == (after > 0)) return;
-        const State y = step.at(zero_between([&](double share) { return rate(step.at(share)); }, 0, 1, before, after));
+        const State y =
+            step.at(zero_between([&](double share) { return rate(step.at(share)); }, 0.0, 1.0, before, after));
         const Instant now = system_.instant(y);
         swing_.turn(now.time, swing_.deflection(system_.plant().motion(y).position, now), before > 0);
     }
@@ -195,7 +186,7 @@ private:
             swing_.with_belt(time_at(step, a), time_at(step, b));
         };
         if (!passes) return part(0, 1, first, last);
-        const double nearest = zero_between([&](double share) { return slip(step.at(share)).dot(way); }, 0, 1,
+        const double nearest = zero_between([&](double share) { return slip(step.at(share)).dot(way); }, 0.0, 1.0,
                                             at_start.dot(way), at_end.dot(way));
         const double least = fast(nearest);
         part(0, nearest, first, least);

@@ -87,7 +87,7 @@ Law random_law() {
         }
         law.*parameter.member = value;
     }
-    prepare(law);
+    prepare_law(law);
     if constexpr (requires { law.begin_impact(1.0); }) law.begin_impact(*decades(1e-4, 1e1));
     return law;
 }

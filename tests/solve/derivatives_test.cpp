@@ -12,6 +12,7 @@
 #include "footfall/solve/dormand_prince_853.hpp"
 #include "footfall/solve/method.hpp"
 #include "footfall/solve/radau.hpp"
+#include "solve/turning_stiffness.hpp"
 
 namespace footfall {
 namespace {
@@ -209,32 +210,13 @@ TEST(Derivatives, OfVanDerPolThroughTheExplicitMethodAreItsDifferences) {
                   2e-6);
 }
 
-/// A point drawn fast onto a curve in a direction that turns with it: (p + sin 3t)(cos t, sin t), from t = 0.
+/// Where the point of TurningStiffness is after some steps of 0.1.
 template <class S>
 typename RadauIIA<S>::Vector drawn_onto_a_curve(const S& p, int steps) {
     using Method = RadauIIA<S>;
     using V = ValueOf<S>;
-    const V lambda(1e8);
-    const auto rate = [&](const auto& y, auto& out) {
-        using std::cos, std::sin, std::sqrt;
-        const S size = sqrt(y[1] * y[1] + y[2] * y[2]);
-        const S along = (S(3) * cos(S(3) * y[0]) - S(lambda) * (size - p - sin(S(3) * y[0]))) / size;
-        out.resize(3);
-        out << S(1), along * y[1] - y[2], along * y[2] + y[1];
-    };
-    const auto jacobian = [&](const auto& y, auto& J) {
-        const V r = value_of(p) + std::sin(3 * y[0]), r_rate = 3 * std::cos(3 * y[0]), size = std::hypot(y[1], y[2]);
-        const V along = (r_rate - lambda * (size - r)) / size;
-        const V by_time = (-9 * std::sin(3 * y[0]) + lambda * r_rate) / size, by_size = -(lambda + along) / size;
-        J.setZero(3, 3);
-        for (int i = 1; i <= 2; ++i) {
-            J(i, 0) = by_time * y[i];
-            for (int k = 1; k <= 2; ++k) J(i, k) = by_size * y[i] * y[k] / size;
-            J(i, i) += along;
-        }
-        J(1, 2) -= 1;
-        J(2, 1) += 1;
-    };
+    const test::TurningStiffness<S> rate{.lambda = V(1e8), .p = p};
+    const auto jacobian = [&](const auto& y, auto& J) { rate.jacobian(y, J); };
     typename Method::Vector start(3);
     start << S(0), p, S(0);
     Method method(rate, jacobian, 3);

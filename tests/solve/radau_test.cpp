@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "solve/turning_stiffness.hpp"
+
 namespace footfall {
 namespace {
 
@@ -133,26 +135,8 @@ TEST(RadauIIA, ForgetsAStiffTransientInOneStep) {
 // A point is drawn fast onto a curve, in a direction that turns with the point itself: u = (2 + sin 3t)(cos p, sin p),
 // pdot = 1, written as udot = p' x u + rdot u/|u| - lambda (|u| - r) u/|u|, which does not depend on the frame.
 TEST(RadauIIA, StridesWhereItsStiffDirectionTurns) {
-    const Real lambda = 1e10L;
-    const auto rate = [&](const Method::Vector& y, Method::Vector& out) {
-        const Real r = 2 + std::sin(3 * y[0]), r_rate = 3 * std::cos(3 * y[0]), size = std::hypot(y[1], y[2]);
-        const Real along = (r_rate - lambda * (size - r)) / size;
-        out.resize(3);
-        out << 1, along * y[1] - y[2], along * y[2] + y[1];
-    };
-    const auto jacobian = [&](const Method::Vector& y, Method::Matrix& J) {
-        const Real r = 2 + std::sin(3 * y[0]), r_rate = 3 * std::cos(3 * y[0]), size = std::hypot(y[1], y[2]);
-        const Real along = (r_rate - lambda * (size - r)) / size;
-        const Real by_time = (-9 * std::sin(3 * y[0]) + lambda * r_rate) / size, by_size = -(lambda + along) / size;
-        J.setZero(3, 3);
-        for (int i = 1; i <= 2; ++i) {
-            J(i, 0) = by_time * y[i];
-            for (int k = 1; k <= 2; ++k) J(i, k) = by_size * y[i] * y[k] / size;
-            J(i, i) += along;
-        }
-        J(1, 2) -= 1;
-        J(2, 1) += 1;
-    };
+    const test::TurningStiffness<Real> rate{.lambda = 1e10L, .p = 2};
+    const auto jacobian = [&](const Method::Vector& y, Method::Matrix& J) { rate.jacobian(y, J); };
     const Method::Vector weight = Method::Vector::Constant(3, 1e10L);
     Method::Vector start(3);
     start << 0, 2, 0;

@@ -6,16 +6,11 @@
 #include <utility>
 #include <variant>
 
+#include "footfall/law/erased.hpp"
 #include "footfall/law/normal/normal_force.hpp"
 #include "footfall/law/registry.hpp"
 
 namespace footfall {
-
-/// Lets a law that is about to be used compute once what follows from its parameters alone, where it has such.
-template <class Law>
-constexpr void prepare(Law& law) noexcept {
-    if constexpr (requires { law.prepare(); }) law.prepare();
-}
 
 /// Any of the registered normal laws, prepared, with the members that they share.
 template <class S = double>
@@ -26,7 +21,7 @@ public:
     template <class Law>
         requires(!std::is_same_v<std::remove_cvref_t<Law>, AnyNormal>)
     constexpr AnyNormal(const Law& law) : AnyNormal(law, AsItIs{}) {
-        std::visit([](auto& held) { prepare(held); }, law_);
+        prepare_law(law_);
     }
 
     /// f / s^Over before the clamp, s = sqrt(z).

@@ -81,10 +81,7 @@ public:
                                                           std::span<S> rates) const noexcept {
         const S scale = scale_at(t.root_depth);
         const NormalForce<S> phi = normal_over_scale(t, x);
-        if (normal_state_count() > 0)
-            of_normal([&](const auto& part) {
-                part.rates(t.root_depth, t.depth_rate, normal_states(x), rates.first(count(normal_state_count())));
-            });
+        if (normal_state_count() > 0) put_normal_rates(t, x, rates);
         Response<S> r;
         FrictionAnswer<S> f;
         const std::span<S> own = rates.subspan(count(normal_state_count()));
@@ -364,6 +361,10 @@ private:
             return part.force(scale_power(), t.root_depth, t.depth_rate, normal_states(x));
         });
     }
+    void put_normal_rates(const Touch<S>& t, States x, std::span<S> rates) const noexcept {
+        of_normal(
+            [&](const auto& part) { part.rates(t.root_depth, t.depth_rate, normal_states(x), normal_states(rates)); });
+    }
     [[nodiscard]] S load_over_leading_power(const Touch<S>& t, States x) const noexcept {
         return of_normal([&](const auto& part) { return part.load(t.root_depth, t.depth_rate, normal_states(x)); });
     }
@@ -468,10 +469,7 @@ private:
         std::array<D, most_normal_states> y = constants<D>(x);
         if (normal_state_count() > 0) {
             std::array<S, most_normal_states> rates{};
-            of_normal([&](const auto& part) {
-                part.rates(t.root_depth, t.depth_rate, normal_states(x),
-                           std::span<S>(rates).first(count(normal_state_count())));
-            });
+            put_normal_rates(t, x, rates);
             for (std::size_t k = 0; k < count(normal_state_count()); ++k) y[k].gradient[0] = rates[k];
         }
         const D s(t.root_depth, {t.depth_rate / (S(2) * t.root_depth)}), v(t.depth_rate, {depth_acceleration});

@@ -22,14 +22,22 @@ template <class Hybrid>
     return e;
 }
 
+/// What the body holds at y; its contacts are left out.
+template <class Hybrid>
+[[nodiscard]] Ledger body_ledger(const Hybrid& hybrid, const typename Hybrid::State& y,
+                                 const typename Hybrid::Motion& motion) {
+    Ledger ledger;
+    ledger.kinetic = static_cast<double>(value_of(hybrid.plant().kinetic_energy(motion)));
+    ledger.potential = static_cast<double>(value_of(hybrid.plant().potential_energy(y, hybrid.follow())));
+    return ledger;
+}
+
 /// The whole account at y [J].
 template <class Hybrid>
 [[nodiscard]] Ledger ledger_of(const Hybrid& hybrid, const typename Hybrid::State& y) {
     const auto& plant = hybrid.plant();
     const auto motion = plant.motion(y);
-    Ledger ledger;
-    ledger.kinetic = static_cast<double>(value_of(plant.kinetic_energy(motion)));
-    ledger.potential = static_cast<double>(value_of(plant.potential_energy(y, hybrid.follow())));
+    Ledger ledger = body_ledger(hybrid, y, motion);
     for (int i = 0; i < hybrid.contacts(); ++i)
         ledger.contact += contact_energy(hybrid, y, plant.touch(y, motion, i), i);
     return ledger;
@@ -49,8 +57,7 @@ template <class Hybrid>
     shot.body.velocity = frame.to_world(motion.velocity);
     shot.body.angular_velocity = frame.to_world(motion.angular_velocity);
     shot.body.orientation = frame.to_world(plant.quaternion(y));
-    shot.ledger.kinetic = number(plant.kinetic_energy(motion));
-    shot.ledger.potential = number(plant.potential_energy(y, hybrid.follow()));
+    shot.ledger = body_ledger(hybrid, y, motion);
     const auto contacts = hybrid.contacts_at(y);
     shot.contacts.reserve(contacts.size());
     for (int i = 0; i < hybrid.contacts(); ++i) {

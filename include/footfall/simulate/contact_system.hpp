@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "footfall/math/dual.hpp"
 #include "footfall/math/value_of.hpp"
 #include "footfall/simulate/account.hpp"
+#include "footfall/simulate/derivatives.hpp"
 #include "footfall/simulate/scales.hpp"
 #include "footfall/solve/solver.hpp"
 
@@ -46,7 +46,7 @@ public:
     ContactSystem(HybridType hybrid, const Body& body, const Ground& ground, const Eigen::Vector3d& gravity,
                   double tolerance)
         : hybrid_(std::move(hybrid)),
-          dual_(hybrid_.template cast<Direction>()),
+          derivatives_(hybrid_),
           scales_(hybrid_, body, gravity, tolerance),
           extent_(std::abs(ground.height)) {
         for (const Sphere& s : body.spheres) extent_ = std::max(extent_, s.center.norm() + s.radius);
@@ -65,40 +65,15 @@ public:
 
     void evaluate(const State& y, State& rate, Guards* guards) const noexcept { hybrid_.evaluate(y, rate, guards); }
 
-    /// d(rate)/dy of the motion, exact, by dual numbers; returns what it cost, in evaluations.
+    /// d(rate)/dy of the motion, and its product with a vector; what they cost, in evaluations.
     template <class Vector, class Matrix>
     std::int64_t jacobian(const Vector& y, Matrix& J) {
-        using DualState = typename DualHybrid::State;
-        const int n = motion_size();
-        listener_.jacobian(n, State(y));
-        dual_.take_modes(hybrid_);
-        J.resize(n, n);
-        DualState point = y.template cast<Direction>(), rate = point;
-        std::int64_t cost = 0;
-        for (int first = 0; first < n; first += directions) {
-            const int last = std::min(first + directions, n);
-            for (int c = first; c < last; ++c) point[c] = Direction::variable(y[c], c - first);
-            dual_.evaluate(point, rate);
-            for (int c = first; c < last; ++c) {
-                for (int r = 0; r < n; ++r) J(r, c) = rate[r].gradient[static_cast<std::size_t>(c - first)];
-                point[c] = Direction(y[c]);
-            }
-            cost += directions;
-        }
-        return cost;
+        listener_.jacobian(motion_size(), State(y));
+        return derivatives_.jacobian(hybrid_, y, J);
     }
-
-    /// The Jacobian's product with a vector; returns what it cost, in evaluations.
     template <class Vector, class Product>
     std::int64_t along(const Vector& y, const Product& v, Product& Jv) {
-        using DualState = typename DualHybrid::State;
-        dual_.take_modes(hybrid_);
-        DualState point = y.template cast<Direction>(), rate = point;
-        const int n = motion_size();
-        for (int c = 0; c < n; ++c) point[c].gradient[0] = v[c];
-        dual_.evaluate(point, rate);
-        for (int c = 0; c < n; ++c) Jv[c] = rate[c].gradient[0];
-        return directions;
+        return derivatives_.along(hybrid_, y, v, Jv);
     }
 
     // ---- sizes of steps and errors -------------------------------------------------------------------------------
@@ -239,11 +214,6 @@ public:
     }
 
 private:
-    // Derivatives are taken in this many directions at a time.
-    static constexpr int directions = 8;
-    using Direction = Dual<Value, directions>;
-    using DualHybrid = decltype(std::declval<HybridType>().template cast<Direction>());
-
     static Value eps() { return std::numeric_limits<Value>::epsilon(); }
     static std::size_t at(int i, int guard) { return static_cast<std::size_t>(i * guards_per_group + guard); }
     static int contact(int guard) noexcept { return guard / guards_per_group; }
@@ -287,8 +257,6 @@ private:
         using std::sqrt;
         std::vector<Value> rate;
         for (const int i : spheres) rate.push_back(depth_rate(y, i));
-        std::vector<S> speed;
-        for (const int i : spheres) speed.push_back(hybrid_.touch(y, i).depth_rate);
         if (!(*std::max_element(rate.begin(), rate.end()) > Value(0))) {
             const std::vector<Value> pull = depth_accelerations(y);
             for (std::size_t k = 0; k < spheres.size(); ++k) rate[k] = pull[static_cast<std::size_t>(spheres[k])];
@@ -349,7 +317,7 @@ private:
     }
 
     HybridType hybrid_;
-    DualHybrid dual_;
+    Derivatives<HybridType> derivatives_;
     Scales<HybridType> scales_;
     Listener listener_;
     double extent_;  // size of body and ground's height [m]

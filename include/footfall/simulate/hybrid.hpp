@@ -261,10 +261,7 @@ private:
     /// The same where nobody wants the rates.
     Action act(std::vector<Contact>& contacts, const State& y, const Motion& m) const {
         State rate(y.size());
-        Action total;
-        bool special = false;
-        for (int i = 0; i < this->contacts(); ++i) special = respond_one(contacts, y, m, rate, i, total) || special;
-        return special ? second_round(contacts, y, m, total, rate) : total;
+        return act(contacts, y, m, rate);
     }
 
     template <class Contacts, class Rates>

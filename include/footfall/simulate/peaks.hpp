@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <vector>
 
-#include <boost/math/tools/toms748_solve.hpp>
-
 #include "footfall/math/value_of.hpp"
 #include "footfall/simulate/recorder.hpp"
+#include "footfall/solve/first_zero.hpp"
 #include "footfall/solve/watcher.hpp"
 
 namespace footfall {
@@ -100,11 +98,7 @@ private:
     static void at_highest(Rate&& rate, Note&& note) {
         const Value at_start = rate(Value(0)), at_end = rate(Value(1));
         if (!(at_start > Value(0)) || !(at_end < Value(0))) return;  // it is at an end, which is noted
-        std::uintmax_t iterations = 50;
-        const auto zero = boost::math::tools::toms748_solve(
-            rate, Value(0), Value(1), at_start, at_end,
-            boost::math::tools::eps_tolerance<Value>(std::numeric_limits<Value>::digits / 2), iterations);
-        note((zero.first + zero.second) / Value(2));
+        note(zero_between(rate, Value(0), Value(1), at_start, at_end, std::numeric_limits<Value>::digits / 2));
     }
 
     const Hybrid& hybrid_;

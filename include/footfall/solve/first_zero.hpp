@@ -66,15 +66,21 @@ template <class Value, class F, class Sample>
     return {};
 }
 
+/// The zero of f between a and b, where it has different signs, to so many binary digits.
+template <class Value, class F>
+[[nodiscard]] Value zero_between(F&& f, Value a, Value b, Value at_a, Value at_b,
+                                 int digits = std::numeric_limits<Value>::digits) {
+    std::uintmax_t iterations = 60;
+    const auto r = boost::math::tools::toms748_solve(f, a, b, at_a, at_b,
+                                                     boost::math::tools::eps_tolerance<Value>(digits), iterations);
+    return (r.first + r.second) / Value(2);
+}
+
 /// The zero in a bracket.
 template <class Value, class F>
 [[nodiscard]] Value zero_in(const Bracket<Value>& in, F&& f) {
     if (!(in.at_to < Value(0))) return in.to;
-    std::uintmax_t iterations = 60;
-    const auto r = boost::math::tools::toms748_solve(
-        f, in.from, in.to, in.at_from, in.at_to,
-        boost::math::tools::eps_tolerance<Value>(std::numeric_limits<Value>::digits - 4), iterations);
-    return (r.first + r.second) / Value(2);
+    return zero_between(f, in.from, in.to, in.at_from, in.at_to, std::numeric_limits<Value>::digits - 4);
 }
 
 /// Both: the first zero, or a negative number where there is none.

@@ -16,10 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include <boost/math/tools/toms748_solve.hpp>
-
 #include "footfall/math/value_of.hpp"
 #include "footfall/solve/crossing_search.hpp"
+#include "footfall/solve/first_zero.hpp"
 #include "footfall/solve/method.hpp"
 #include "footfall/solve/secants.hpp"
 #include "footfall/solve/watcher.hpp"
@@ -449,11 +448,8 @@ private:
             if (!(from < time)) return Value(0);
             if (!(time < to)) return Value(1);
             const auto late = [&](Value share) { return solver_.clock_at(share) - time; };
-            std::uintmax_t iterations = 50;
-            const auto r = boost::math::tools::toms748_solve(
-                late, Value(0), Value(1), from - time, to - time,
-                boost::math::tools::eps_tolerance<Value>(std::numeric_limits<Value>::digits - 4), iterations);
-            return (r.first + r.second) / Value(2);
+            return zero_between(late, Value(0), Value(1), from - time, to - time,
+                                std::numeric_limits<Value>::digits - 4);
         }
         [[nodiscard]] Value from() const override { return solver_.from_; }
         [[nodiscard]] Value to() const override { return solver_.to_; }
