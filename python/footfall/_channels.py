@@ -40,21 +40,30 @@ _SUMS = ("tangential_spring_paper",)  # made of channels, with variables like th
 
 def of_dataset(data: xr.Dataset) -> tuple[Channel, ...]:
     """The channels of a run's dataset. What is not in the table is what the file says of it."""
-    known = {channel.name: channel for channel in TABLE}
+    known = {channel.name: channel for channel in (*_listed(data), *TABLE)}
     said = {
         name: _described(name, str(data[f"sphere_energy_{name}"].attrs.get("long_name", "")))
         for name in (str(n).removeprefix("sphere_energy_") for n in data if str(n).startswith("sphere_energy_"))
         if name not in _SUMS
     }
-    # Files keep no order.
     return tuple(known[name] for name in known if name in said) + tuple(said[name] for name in said if name not in known)
+
+
+def _listed(data: xr.Dataset) -> tuple[Channel, ...]:
+    """The channels that the file lists, in its order: variables of a file have none."""
+    entries = (entry.split(": ") for entry in str(data.attrs.get("energy_channels", "")).split(", ") if entry)
+    return tuple(Channel(name, kind, label, "", _response(name, kind)) for name, kind, label in entries)
+
+
+def _response(name: str, kind: str) -> str:
+    return name if kind == "held" else f"{name}_power"
 
 
 def _described(name: str, description: str) -> Channel:
     """A channel from the text of its variable: "energy taken by the clutch"."""
     said = re.match(r"energy (held|taken) by the ([^;]+)", description)
     kind, label = said.groups() if said else ("taken", name.replace("_", " "))
-    return Channel(name, kind, label, description, name if kind == "held" else f"{name}_power")
+    return Channel(name, kind, label, description, _response(name, kind))
 
 
 def list_in_docstring(kind: type, line: Callable[[Channel], str]) -> None:

@@ -1,7 +1,11 @@
 // The contents of a run's file, from the tables in columns.hpp.
 #include "io/run_dataset.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <numeric>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -123,21 +127,42 @@ void contact_table(Builder& data, const std::string& name, const columns::Column
                  gather);
 }
 
-/// Every parameter of one kind of law, for each sphere: `normal_stiffness(sphere)` and so on.
-template <class Law, class OfContact>
-void parameters(Builder& data, const std::string& prefix, const std::vector<ContactParameters>& contacts,
-                OfContact of_contact) {
-    for (const auto& parameter : Law::parameters()) {
-        const auto gather = [&contacts, of_contact, member = parameter.member] {
-            std::vector<double> values;
-            for (const ContactParameters& contact : contacts) {
-                values.push_back(std::get<Law>(of_contact(contact)).*member);
-            }
-            return values;
-        };
-        data.numbers(fmt::format("{}_{}", prefix, parameter.key), parameter.unit,
-                     fmt::format("{}, {}", parameter.symbol, parameter.description), {"sphere"}, gather);
-    }
+/// "normal_spring: held: normal spring, ...": the channels in their order, for readers that do not have the table.
+std::string channel_list() {
+    std::string list;
+    for (const ContactChannel& c : contact_channels)
+        list += fmt::format("{}{}: {}: {}", list.empty() ? "" : ", ", c.name, name_of(c.kind), c.label);
+    return list;
+}
+
+/// The laws of one `part` of the contacts, normal or friction: their names, and every parameter for each sphere,
+/// `normal_stiffness(sphere)` and so on. Where the spheres are under different laws the law's name is in that of the
+/// variable, and NaN stands for the spheres that are not under it.
+template <class Variant, class OfContact>
+void write_laws(Builder& data, const std::string& part, const std::vector<ContactParameters>& contacts, OfContact of) {
+    std::string names;
+    for_each_law<Variant>([&]<class Law>(const Law&) {
+        const std::size_t under = contacts_under<Law>(contacts, of).size();
+        if (under == 0) return;
+        const bool all = under == contacts.size();
+        names += (names.empty() ? "" : ", ") + std::string(Law::description.name);
+        std::string prefix = part;
+        if (!all) prefix += fmt::format("_{}", Law::description.name);
+        std::replace(prefix.begin(), prefix.end(), '-', '_');
+        for (const auto& parameter : Law::parameters()) {
+            const auto gather = [&contacts, of, member = parameter.member] {
+                std::vector<double> values;
+                for (const ContactParameters& contact : contacts) {
+                    const Law* law = std::get_if<Law>(&of(contact));
+                    values.push_back(law ? law->*member : std::numeric_limits<double>::quiet_NaN());
+                }
+                return values;
+            };
+            data.numbers(fmt::format("{}_{}", prefix, parameter.key), parameter.unit,
+                         fmt::format("{}, {}", parameter.symbol, parameter.description), {"sphere"}, gather, !all);
+        }
+    });
+    data.attribute((part + "_law").c_str(), names);
 }
 
 void write_setup(Builder& data, const Simulation& simulation) {
@@ -160,16 +185,11 @@ void write_setup(Builder& data, const Simulation& simulation) {
                      return values;
                  });
 
-    // All contacts have the same kinds of law.
     const std::vector<ContactParameters>& contacts = simulation.contacts;
-    const auto normal_of = [](const ContactParameters& c) -> const NormalLaw& { return c.normal; };
-    const auto friction_of = [](const ContactParameters& c) -> const FrictionLaw& { return c.friction; };
-    data.attribute("normal_law", name_of(contacts.front().normal));
-    data.attribute("friction_law", name_of(contacts.front().friction));
-    std::visit([&]<class Law>(const Law&) { parameters<Law>(data, "normal", contacts, normal_of); },
-               contacts.front().normal);
-    std::visit([&]<class Law>(const Law&) { parameters<Law>(data, "friction", contacts, friction_of); },
-               contacts.front().friction);
+    write_laws<NormalLaw>(data, "normal", contacts,
+                          [](const ContactParameters& c) -> const NormalLaw& { return c.normal; });
+    write_laws<FrictionLaw>(data, "friction", contacts,
+                            [](const ContactParameters& c) -> const FrictionLaw& { return c.friction; });
 }
 
 void write_samples(Builder& data, std::size_t spheres, const Run& run) {
@@ -230,7 +250,7 @@ void write_events(Builder& data, const std::vector<Event>& events) {
     for (const auto& column : columns::contact) {
         table(
             data, fmt::format("event_{}", column.name), column, with_components({"event"}, column.shape), events,
-            [](const Event& e) -> const ContactSnapshot& { return e.state.contacts.at(e.sphere); },
+            [](const Event& e) -> const ContactSnapshot& { return e.state.contacts.at(static_cast<std::size_t>(e.sphere)); },
             "of event_sphere at the event: ");
     }
 }
@@ -261,6 +281,7 @@ RunDataset run_dataset(const Scenario& scenario, const Run& run) {
     data.attribute("title", printable(scenario.title));
     data.attribute("source", fmt::format("footfall {}", version));
     data.attribute("footfall_version", version);
+    data.attribute("energy_channels", channel_list());
     data.attribute("tolerance", scenario.simulation.options.tolerance);
     data.attribute("max_residual", run.max_residual);
     data.attribute("energy_scale", run.energy_scale);

@@ -98,22 +98,36 @@ std::vector<std::string> formula_lines(std::string_view formula) {
     return lines;
 }
 
-/// A law's name, its formula, and its parameters: once where all spheres share them, else for each sphere.
+/// "spheres 0, 2, 5, ... 9"
+std::string spheres_in_words(const std::vector<std::size_t>& spheres) {
+    constexpr std::size_t most = 6;
+    std::string words = spheres.size() == 1 ? "sphere" : "spheres";
+    const std::size_t shown = spheres.size() > most ? most - 1 : spheres.size();
+    for (std::size_t k = 0; k < shown; ++k) words += fmt::format("{} {}", k == 0 ? "" : ",", spheres[k]);
+    if (shown < spheres.size()) words += fmt::format(", ... {}", spheres.back());
+    return words;
+}
+
+/// A law's name, its formula, and its parameters: once where all its spheres share them, else for each of them.
 template <class Law, class OfContact>
 void show_law(Table& table, std::string label, const std::vector<ContactParameters>& contacts, OfContact of_contact) {
-    table.row({std::move(label), std::string(Law::description.name)});
+    const std::vector<std::size_t> under = contacts_under<Law>(contacts, of_contact);
+    if (under.empty()) return;
+    std::string name(Law::description.name);
+    if (under.size() < contacts.size()) name += ", " + spheres_in_words(under);
+    table.row({std::move(label), std::move(name)});
     for (std::string& line : formula_lines(Law::description.formula)) table.row({"", std::move(line)});
     std::vector<std::vector<std::string>> each;
-    for (const ContactParameters& contact : contacts) each.push_back(parameters_of(std::get<Law>(of_contact(contact))));
+    for (const std::size_t i : under) each.push_back(parameters_of(std::get<Law>(of_contact(contacts[i]))));
     if (std::all_of(each.begin(), each.end(), [&](const auto& lines) { return lines == each.front(); })) {
         for (const std::string& line : each.front()) table.row({"", line});
         return;
     }
     constexpr std::size_t most = 6, tail = 1;
-    Excerpt::of(each.size(), most, tail).rows(table, [&](std::size_t i) {
-        for (std::size_t line = 0; line < each[i].size(); ++line) {
-            table.row(
-                {"", fmt::format("{} {}", line == 0 ? fmt::format("sphere {}:", i) : "         ", each[i][line])});
+    Excerpt::of(each.size(), most, tail).rows(table, [&](std::size_t k) {
+        for (std::size_t line = 0; line < each[k].size(); ++line) {
+            table.row({"", fmt::format("{} {}", line == 0 ? fmt::format("sphere {}:", under[k]) : "         ",
+                                       each[k][line])});
         }
     });
 }
@@ -165,10 +179,10 @@ std::string setup(const Scenario& scenario) {
     }
     const auto normal_of = [](const ContactParameters& c) -> const NormalLaw& { return c.normal; };
     const auto friction_of = [](const ContactParameters& c) -> const FrictionLaw& { return c.friction; };
-    std::visit([&]<class Law>(const Law&) { show_law<Law>(table, "Normal", simulation.contacts, normal_of); },
-               simulation.contacts.front().normal);
-    std::visit([&]<class Law>(const Law&) { show_law<Law>(table, "Friction", simulation.contacts, friction_of); },
-               simulation.contacts.front().friction);
+    for_each_law<NormalLaw>(
+        [&]<class Law>(const Law&) { show_law<Law>(table, "Normal", simulation.contacts, normal_of); });
+    for_each_law<FrictionLaw>(
+        [&]<class Law>(const Law&) { show_law<Law>(table, "Friction", simulation.contacts, friction_of); });
     // It may have been forgotten; law = "none" says that there is to be none.
     if (scenario.friction_left_out) table.row({"", "No friction: [contact.friction] is not given."});
     return table.str();

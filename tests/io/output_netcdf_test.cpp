@@ -255,6 +255,32 @@ TEST_F(OutputNetcdf, SaysWhatWasRun) {
     EXPECT_EQ(file.numbers("friction_coefficient"), (std::vector<double>{0.2, 0.3}));
 }
 
+TEST_F(OutputNetcdf, SaysWhichSphereIsUnderWhichLaw) {
+    scenario.simulation.contacts[1].normal = LinearNormal<>{4e4, 7};
+    scenario.simulation.contacts[0].friction = NoFriction<>{};
+    write_netcdf(folder / "run.nc", scenario, run);
+    const Reader file(folder / "run.nc");
+    EXPECT_EQ(file.text("", "normal_law"), "azad-featherstone, linear");
+    EXPECT_EQ(file.numbers("normal_linear_stiffness")[1], 4e4);
+    EXPECT_EQ(file.numbers("normal_linear_damping")[1], 7);
+    EXPECT_TRUE(std::isnan(file.numbers("normal_linear_damping")[0]));
+    EXPECT_FALSE(std::isnan(file.numbers("normal_azad_featherstone_stiffness")[0]));
+    EXPECT_TRUE(std::isnan(file.numbers("normal_azad_featherstone_stiffness")[1]));
+    EXPECT_EQ(file.text("", "friction_law").substr(0, 6), "none, ");
+}
+
+TEST_F(OutputNetcdf, ListsTheChannelsOfEnergyInTheirOrder) {
+    write_netcdf(folder / "run.nc", scenario, run);
+    const std::string list = Reader(folder / "run.nc").text("", "energy_channels");
+    std::size_t at = 0;
+    for (const ContactChannel& channel : contact_channels) {
+        const std::string entry = fmt::format("{}: {}: {}", channel.name, name_of(channel.kind), channel.label);
+        EXPECT_EQ(list.substr(at, entry.size()), entry);
+        at += entry.size() + 2;
+    }
+    EXPECT_EQ(at, list.size() + 2);
+}
+
 TEST_F(OutputNetcdf, HoldsARunWithoutEvents) {
     write_netcdf(folder / "run.nc", scenario, uneventful_run());
     const Reader file(folder / "run.nc");

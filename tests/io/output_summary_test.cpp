@@ -96,6 +96,15 @@ TEST(OutputSummary, SharedParametersAreSaidOnce) {
     line_with(summary(scenario, two_sphere_run()), "K_t = 1.275e7");
 }
 
+TEST(OutputSummary, NamesTheSpheresOfEachLaw) {
+    Scenario scenario = two_sphere_scenario();
+    scenario.simulation.contacts[1].normal = LinearNormal<>{4e4, 7};
+    const std::string page = summary(scenario, two_sphere_run());
+    EXPECT_TRUE(contains(page, "azad-featherstone, sphere 0"));
+    EXPECT_TRUE(contains(page, "linear, sphere 1"));
+    EXPECT_TRUE(contains(page, "k = 40000 N/m, d = 7 N s/m"));
+}
+
 TEST(OutputSummary, HasALineForEachImpact) {
     const std::string page = summary(two_sphere_scenario(), two_sphere_run());
     const std::string over = line_with(page, "0.6250"), lasting = line_with(page, "lasting  ");

@@ -2,8 +2,10 @@
 // The scenario's names, the command line's help, the schema and the typed tests all follow this list.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "footfall/law/friction/azad_featherstone.hpp"
 #include "footfall/law/friction/bliman_sorine.hpp"
@@ -71,6 +73,15 @@ struct ContactParameters {
 template <class Variant, class Visit>
 constexpr void for_each_law(Visit&& visit) {
     [&]<class... Laws>(const std::variant<Laws...>*) { (visit(Laws{}), ...); }(static_cast<const Variant*>(nullptr));
+}
+
+/// The contacts of a body that are under one law; `of(contact)` is the normal or the friction law of a contact.
+template <class Law, class OfContact>
+[[nodiscard]] std::vector<std::size_t> contacts_under(const std::vector<ContactParameters>& contacts, OfContact of) {
+    std::vector<std::size_t> under;
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+        if (std::holds_alternative<Law>(of(contacts[i]))) under.push_back(i);
+    return under;
 }
 
 /// The law's name in a scenario.
