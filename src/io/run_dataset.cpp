@@ -250,7 +250,9 @@ void write_events(Builder& data, const std::vector<Event>& events) {
     for (const auto& column : columns::contact) {
         table(
             data, fmt::format("event_{}", column.name), column, with_components({"event"}, column.shape), events,
-            [](const Event& e) -> const ContactSnapshot& { return e.state.contacts.at(static_cast<std::size_t>(e.sphere)); },
+            [](const Event& e) -> const ContactSnapshot& {
+                return e.state.contacts.at(static_cast<std::size_t>(e.sphere));
+            },
             "of event_sphere at the event: ");
     }
 }
