@@ -3,7 +3,9 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/footfall)
 
-install(TARGETS footfall EXPORT footfall_targets)
+# The law's targets stand in a file of their own: whoever asks for the law alone needs nothing else.
+install(TARGETS footfall_law EXPORT footfall_law_targets)
+install(TARGETS footfall_core footfall_study footfall_io footfall EXPORT footfall_targets)
 install(TARGETS footfall_cli)
 install(DIRECTORY include/footfall ${PROJECT_BINARY_DIR}/include/footfall
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
@@ -13,12 +15,12 @@ install(DIRECTORY scenarios/
     FILES_MATCHING PATTERN "*.toml")
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-install(EXPORT footfall_targets
-    FILE footfallTargets.cmake
-    NAMESPACE footfall::
-    DESTINATION ${package_dir})
+foreach(part IN ITEMS _law "")
+    string(REPLACE _law Law file footfall${part}Targets.cmake)
+    install(EXPORT footfall${part}_targets FILE ${file} NAMESPACE footfall:: DESTINATION ${package_dir})
+endforeach()
 
-get_target_property(library_type footfall TYPE)
+get_target_property(library_type footfall_core TYPE)
 string(COMPARE EQUAL ${library_type} STATIC_LIBRARY footfall_is_static)
 configure_package_config_file(cmake/footfallConfig.cmake.in cmake/footfallConfig.cmake
     INSTALL_DESTINATION ${package_dir})

@@ -66,7 +66,7 @@ int main() {
     const double mass = 0.154, dt = 1e-7;
     double z = 0, z_rate = 1, taken = 0, force = 0;  // it comes in at 1 m/s
     do {
-        const auto contact = law.evaluate(z, z_rate, Eigen::Vector2d{0.1, 0}, Eigen::Vector2d::Zero());
+        const auto contact = law.evaluate(z, z_rate, {0.1, 0}, {0, 0});
         z_rate -= dt * contact.normal_force / mass;
         z += dt * z_rate;
         taken += dt * contact.normal_damper_power;

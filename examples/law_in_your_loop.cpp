@@ -9,15 +9,15 @@ int main() {
         {8.5e6, 3.1e3},               // K_n [N/m^1.5], D_n [N s/m^1.5]
         {12.75e6, 3.1e3, 0.2, 0.1}};  // K_t [N/m^1.5], D_t [N s/m^1.5], mu [1], C_V [N s/m]
     const double mass = 0.154, dt = 1e-7;
-    const Eigen::Vector3d gravity{0, 0, -9.81};
-    Eigen::Vector3d position{0, 0, 0.01}, velocity{0.5, 0, 0};  // of the point that touches
-    Eigen::Vector2d bristle{0, 0};
+    const footfall::Vector3<double> gravity{0, 0, -9.81};
+    footfall::Vector3<double> position{0, 0, 0.01}, velocity{0.5, 0, 0};  // of the point that touches
+    footfall::Vector2<double> bristle{0, 0};
     double damper = 0, clutch = 0;  // where the energy went [J]
 
     for (int step = 0; step < 5'000'000; ++step) {
-        const auto contact = law.evaluate(-position.z(), -velocity.z(), velocity.head<2>(), bristle);
+        const auto contact = law.evaluate(-position.z(), -velocity.z(), velocity.in_plane(), bristle);
         const auto& friction = contact.friction_force;
-        velocity += dt * (gravity + Eigen::Vector3d{friction.x(), friction.y(), contact.normal_force} / mass);
+        velocity += dt * (gravity + footfall::Vector3<double>{friction.x(), friction.y(), contact.normal_force} / mass);
         position += dt * velocity;
         bristle += dt * contact.bristle_rate;
         damper += dt * (contact.normal_damper_power + contact.tangential_damper_power);

@@ -151,7 +151,7 @@ private:
             return S(value) + (at - S(value_of(at))) * S(rate * now.time_rate);
         }
     }
-    static Vector2<S> prescribed(const Eigen::Vector2d& value, const Eigen::Vector2d& rate, const Instant& now,
+    static Vector2<S> prescribed(const Vector2<double>& value, const Vector2<double>& rate, const Instant& now,
                                  const S& at) noexcept {
         return {prescribed(value.x(), rate.x(), now, at), prescribed(value.y(), rate.y(), now, at)};
     }

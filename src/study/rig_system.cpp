@@ -11,7 +11,7 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-Eigen::Vector2d pair_at(const RigSystem::State& y, int first) { return {y[first], y[first + 1]}; }
+Vector2<double> pair_at(const RigSystem::State& y, int first) { return {y[first], y[first + 1]}; }
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void RigSystem::evaluate(const State& y, State& rate, Guards* guards) {
     }
     hybrid_.evaluate(y, rate, &all_guards_);
     (*guards)[clutch_guard] = mode().loaded() ? all_guards_[Law::clutch_guard] : 1;
-    const bool looks = mode().loaded() && !direction_.isZero(0);
+    const bool looks = mode().loaded() && !direction_.isZero();
     (*guards)[turn_guard] = looks ? hybrid_.touch(y, 0).slip.dot(direction_) + turning_noise() : 1;
 }
 
@@ -47,8 +47,8 @@ double RigSystem::turning_noise() const {
 
 void RigSystem::look_along(const State& y) {
     if (!law().has_kink_at_rest()) return;
-    const Eigen::Vector2d V = hybrid_.touch(y, 0).slip;
-    direction_ = V.norm() > 0 ? Eigen::Vector2d(V.normalized()) : Eigen::Vector2d(0, 0);
+    const Vector2<double> V = hybrid_.touch(y, 0).slip;
+    direction_ = V.norm() > 0 ? V / V.norm() : Vector2<double>();
 }
 
 RigState RigSystem::measure(const State& y) const {
@@ -63,16 +63,16 @@ RigState RigSystem::measure(const State& y) const {
     // At the surface itself the depth is kept from being exactly zero.
     constexpr double nothing = 1e-90;
     s.normal_force = c.response.push.normal > nothing ? c.response.push.normal : 0;
-    s.friction_force = c.response.push.friction;
-    s.slip_displacement = pair_at(y, follow + Plant::displacement);
-    s.slip_velocity = c.touch.slip;
-    s.bristle = law().bristle(hybrid_.states(y, 0));
+    s.friction_force = to_eigen(c.response.push.friction);
+    s.slip_displacement = to_eigen(pair_at(y, follow + Plant::displacement));
+    s.slip_velocity = to_eigen(c.touch.slip);
+    s.bristle = to_eigen(law().bristle(hybrid_.states(y, 0)));
     s.energy = energy(y);
     if (plant().carries()) {
         const Plant::Motion m = plant().motion(y);
-        s.position = m.position;
-        s.velocity = m.velocity;
-        s.holding_force = plant().holding_force(m);
+        s.position = to_eigen(m.position);
+        s.velocity = to_eigen(m.velocity);
+        s.holding_force = to_eigen(plant().holding_force(m));
     }
     return s;
 }
@@ -184,7 +184,7 @@ double RigSystem::first_step() const {
 void RigSystem::tidy(State& y, double from, double to) {
     relax(y, from, to);
     // A velocity that was zero where its direction was asked for.
-    if (direction_.isZero(0)) look_along(y);
+    if (direction_.isZero()) look_along(y);
 }
 
 void RigSystem::relax(State& y, double from, double to) const {

@@ -131,7 +131,7 @@ private:
     HybridType::Guards all_guards_;
 
     std::optional<Touch<double>> before_;  // at the end of the last interval
-    Eigen::Vector2d direction_{0, 0};      // where V has pointed
+    Vector2<double> direction_{0, 0};      // where V has pointed
     State seen_, floor_;
     double largest_bristle_error_ = 0;  // [m]; 0: the tolerance alone says
     double energy_scale_ = 0;           // [J]

@@ -148,7 +148,7 @@ private:
     [[nodiscard]] double time_at(const RigStep& step, double share) const {
         return system_.time_at(std::lerp(step.from(), step.to(), share));
     }
-    [[nodiscard]] Eigen::Vector2d slip(const State& y) const { return system_.hybrid().touch(y, 0).slip; }
+    [[nodiscard]] Vector2<double> slip(const State& y) const { return system_.hybrid().touch(y, 0).slip; }
 
     void look_for_turn(const RigStep& step) {
         const auto rate = [&](const State& y) {
@@ -168,7 +168,7 @@ private:
             if (system_.mode().phase == Phase::stick) swing_.with_belt(time_at(step, 0), time_at(step, 1));
             return;
         }
-        const Eigen::Vector2d at_start = slip(step.start()), at_end = slip(step.end());
+        const Vector2<double> at_start = slip(step.start()), at_end = slip(step.end());
         const double first = at_start.norm() - swing_.slow(), last = at_end.norm() - swing_.slow();
         if (first < 0 && last < 0) {
             swing_.with_belt(time_at(step, 0), time_at(step, 1));
@@ -176,7 +176,7 @@ private:
         }
         // Slow inside a step that is fast at both ends: where the slip velocity, on its way from one to the other, is
         // nearest to zero.
-        const Eigen::Vector2d way = at_end - at_start;
+        const Vector2<double> way = at_end - at_start;
         const bool passes = at_start.dot(way) < 0 && at_end.dot(way) > 0;
         if (first >= 0 && last >= 0 && !passes) return;
         const auto fast = [&](double share) { return slip(step.at(share)).norm() - swing_.slow(); };

@@ -8,7 +8,7 @@ namespace footfall {
 Swing::Swing(const Rig& rig, const Timeline& timeline) : half_time_(rig.end_time / 2) {
     if (rig.drag != Drag::mass || !(rig.mass.stiffness > 0)) return;
     const Instant end = timeline.at(timeline.intervals().back(), 0.5);
-    const Eigen::Vector2d drawn = end.belt - end.support_velocity;
+    const Vector2<double> drawn = end.belt - end.support_velocity;
     speed_ = drawn.norm();
     if (speed_ > 0) along_ = drawn / speed_;
 }

@@ -17,11 +17,11 @@ public:
     /// There is something to watch: a mass on a spring, and a belt or support that moves at the end.
     [[nodiscard]] bool watches() const noexcept { return speed_ > 0; }
     /// How fast the mass moves along the belt's way relative to the support [m/s].
-    [[nodiscard]] double rate(const Eigen::Vector2d& velocity, const Instant& now) const {
+    [[nodiscard]] double rate(const Vector2<double>& velocity, const Instant& now) const {
         return along_.dot(velocity - now.support_velocity);
     }
     /// How far it is along that way from the support [m].
-    [[nodiscard]] double deflection(const Eigen::Vector2d& position, const Instant& now) const {
+    [[nodiscard]] double deflection(const Vector2<double>& position, const Instant& now) const {
         return along_.dot(position - now.support);
     }
     /// The deflection has turned at a greatest or least value.
@@ -49,7 +49,7 @@ private:
 
     double half_time_;
     double speed_ = 0;
-    Eigen::Vector2d along_{0, 0};
+    Vector2<double> along_{0, 0};
     std::vector<Turn> turns_;
     std::vector<Stay> stays_;
 };

@@ -58,9 +58,9 @@ std::vector<double> kinks_of(const Rig& rig) {
     return kinks;
 }
 
-Eigen::Vector2d values(const PathValue& x, const PathValue& y) { return {x.value, y.value}; }
-Eigen::Vector2d rates(const PathValue& x, const PathValue& y) { return {x.rate, y.rate}; }
-Eigen::Vector2d accelerations(const PathValue& x, const PathValue& y) { return {x.acceleration, y.acceleration}; }
+Vector2<double> values(const PathValue& x, const PathValue& y) { return {x.value, y.value}; }
+Vector2<double> rates(const PathValue& x, const PathValue& y) { return {x.rate, y.rate}; }
+Vector2<double> accelerations(const PathValue& x, const PathValue& y) { return {x.acceleration, y.acceleration}; }
 
 /// theta at its two ends is kept from being exactly there, so that s is never a zero in a denominator.
 constexpr double least_theta = 1e-100;

@@ -36,11 +36,11 @@ struct Instant {
     double time_curvature = 0;  ///< d2t/dtheta2
     double s = 0, s_rate = 0;   ///< sqrt(z), zdot / (2 s); zero in flight
     double depth = 0, depth_rate = 0, depth_acceleration = 0;
-    Eigen::Vector2d slip{0, 0}, slip_rate{0, 0};  ///< V_sph where it is prescribed
-    Eigen::Vector2d displacement{0, 0};           ///< where it is prescribed
-    Eigen::Vector2d support{0, 0}, support_velocity{0, 0}, support_acceleration{0, 0};
-    Eigen::Vector2d force{0, 0}, force_rate{0, 0};
-    Eigen::Vector2d belt{0, 0}, belt_rate{0, 0};
+    Vector2<double> slip{0, 0}, slip_rate{0, 0};  ///< V_sph where it is prescribed
+    Vector2<double> displacement{0, 0};           ///< where it is prescribed
+    Vector2<double> support{0, 0}, support_velocity{0, 0}, support_acceleration{0, 0};
+    Vector2<double> force{0, 0}, force_rate{0, 0};
+    Vector2<double> belt{0, 0}, belt_rate{0, 0};
 };
 
 /// Of theta against time: dt/dtheta and d2t/dtheta2 [s], and the time from and to the interval's ends [s].

@@ -8,8 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include "footfall/eigen/interop.hpp"
 #include "footfall/math/dual.hpp"
 #include "law/laws.hpp"
+#include "law/turn.hpp"
 #include "math/property.hpp"
 
 namespace footfall {
@@ -263,7 +265,7 @@ TYPED_TEST(ContactLawTest, NormalForceDoesNotSeeTheFriction) {
 TYPED_TEST(ContactLawTest, TurningTheGroundTurnsTheAnswer) {
     check_property([] {
         const Case<TypeParam> c;
-        const Eigen::Matrix2d turn = Eigen::Rotation2Dd(*uniform(0, 6.283185307179586)).toRotationMatrix();
+        const test::Turn turn(*uniform(0, 6.283185307179586));
         const auto here = c.response();
         // In the same phase: on the very edge of the cone rounding may choose another.
         const auto there = respond(c.law, here.phase, c.at.s(), c.at.rate, turn * c.at.V, turn * c.at.u);

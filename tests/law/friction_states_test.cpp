@@ -12,6 +12,7 @@
 #include "footfall/law/contact_law.hpp"
 #include "footfall/math/dual.hpp"
 #include "law/laws.hpp"
+#include "law/turn.hpp"
 #include "math/property.hpp"
 
 namespace footfall {
@@ -152,7 +153,7 @@ struct RateCase {
             if (coin()) {  // beyond break-away, and outwards
                 const double u_ss = law.steady(V) / law.stiffness;
                 put_vector<double>(x, 0, V.normalized() * (law.breakaway() + *uniform(0, 1.2) * u_ss));
-                V = Eigen::Rotation2Dd(*uniform(-1.4, 1.4)) * V;
+                V = test::Turn(*uniform(-1.4, 1.4)) * V;
                 phase = Phase::slip;
             }
         }
@@ -250,7 +251,7 @@ TYPED_TEST(RateFrictionTest, IsPassiveAtConstantLoadWhereItsFileSaysSo) {
 TYPED_TEST(RateFrictionTest, TurningThePlaneTurnsTheAnswer) {
     check_property([] {
         const RateCase<TypeParam> c;
-        const Eigen::Matrix2d turn = Eigen::Rotation2Dd(*uniform(0, 6.283185307179586)).toRotationMatrix();
+        const test::Turn turn(*uniform(0, 6.283185307179586));
         constexpr int vectors = std::is_same_v<TypeParam, SevenParameterFriction<>> ? 1 : TypeParam::states / 2;
         std::vector<double> x = c.x, here(x.size()), there(x.size());
         for (std::size_t i = 0; i < static_cast<std::size_t>(vectors); ++i)

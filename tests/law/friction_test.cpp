@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "footfall/eigen/interop.hpp"
 #include "footfall/law/registry.hpp"
 #include "footfall/math/dual.hpp"
 #include "law/laws.hpp"
+#include "law/turn.hpp"
 #include "math/property.hpp"
 
 namespace footfall {
@@ -125,7 +127,7 @@ TYPED_TEST(BristleTest, ClutchTurnsTheWayTheSphereSlips) {
     check_property([] {
         // With no stretch the sphere can only drag the clutch along with it.
         Slipping<TypeParam> slip(damped);
-        slip.at.u.setZero();
+        slip.at.u = {};
         slip.phi_n *= 1e-3;
         RC_PRE(slip.law.cone_margin(slip.phi_n, slip.at.V, slip.at.u) < 0);
         const Vector V_clutch = slip.at.V - slip.response().bristle_rate;
@@ -164,7 +166,7 @@ TYPED_TEST(BristleTest, TurningTheGroundTurnsTheAnswer) {
     check_property([] {
         const Slipping<TypeParam> slip(any);
         const auto& [law, at, scale, phi_n, F_n] = slip;
-        const Eigen::Matrix2d turn = Eigen::Rotation2Dd(*uniform(0, 6.283185307179586)).toRotationMatrix();
+        const test::Turn turn(*uniform(0, 6.283185307179586));
         const auto here = law.slip(scale, phi_n, 0, at.V, at.u);
         const auto there = law.slip(scale, phi_n, 0, turn * at.V, turn * at.u);
         const double forces = law.stiffness * at.u.norm() + law.damping * at.V.norm();

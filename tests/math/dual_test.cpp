@@ -3,9 +3,11 @@
 
 #include <limits>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "footfall/eigen/interop.hpp"
 #include "footfall/math/scalar.hpp"
 #include "footfall/math/vector.hpp"
 #include "math/random_real.hpp"
@@ -158,7 +160,7 @@ TEST(Dual, NestsForSecondDerivatives) {
     EXPECT_NEAR(y.gradient[0].gradient[0], 12 * 0.7 - std::sin(0.7) / 3, 1e-15);
 }
 
-TEST(Dual, IsAScalarForEigen) {
+TEST(Dual, IsAScalarOfVectors) {
     const Vector3<Dual3> x(Dual3::variable(1, 0), Dual3::variable(2, 1), Dual3::variable(2, 2));
     const Dual3 length = x.norm();  // 3, with gradient x / |x|
     EXPECT_DOUBLE_EQ(length.value, 3);
@@ -170,8 +172,22 @@ TEST(Dual, IsAScalarForEigen) {
     EXPECT_DOUBLE_EQ(cross[2].gradient[0], -2 * a[1]);
     EXPECT_DOUBLE_EQ((2.0 * x)[1].gradient[1], 2);
     // A quarter turn about z takes (x, y, z) to (-y, x, z).
-    const Quaternion<double> turn(Eigen::AngleAxisd(std::acos(-1.0) / 2, Vector3<double>::UnitZ()));
-    const Vector3<Dual3> turned = turn.cast<Dual3>() * x;
+    const double half = std::sqrt(0.5);
+    const Vector3<Dual3> turned = rotation_of<double>(half, 0, 0, half).cast<Dual3>() * x;
+    EXPECT_NEAR(turned[0].gradient[1], -1, 1e-15);
+    EXPECT_NEAR(turned[1].gradient[0], 1, 1e-15);
+    const Vector3<Dual3> back = rotation_of<double>(half, 0, 0, half).cast<Dual3>().transposed_times(turned);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(back[i].value, x[i].value, 1e-15);
+}
+
+TEST(Dual, IsAScalarForEigen) {
+    const Vector3<Dual3> x(Dual3::variable(1, 0), Dual3::variable(2, 1), Dual3::variable(2, 2));
+    const Eigen::Matrix<Dual3, 3, 1> column = to_eigen(x);
+    EXPECT_DOUBLE_EQ(column.norm().gradient[1], 2.0 / 3);
+    EXPECT_DOUBLE_EQ((2.0 * column)[1].gradient[1], 2);
+    // A quarter turn about z takes (x, y, z) to (-y, x, z).
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(std::acos(-1.0) / 2, Eigen::Vector3d::UnitZ()));
+    const Vector3<Dual3> turned = from_eigen<Dual3>(turn.cast<Dual3>() * column);
     EXPECT_NEAR(turned[0].gradient[1], -1, 1e-15);
     EXPECT_NEAR(turned[1].gradient[0], 1, 1e-15);
 }

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "footfall/math/vector.hpp"
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace footfall {
 

@@ -29,6 +29,20 @@ enum class EventKind : std::uint8_t {
     separation,  ///< F_n reaches 0
     recovered,   ///< z returns to 0
 };
-[[nodiscard]] std::string_view name_of(EventKind kind) noexcept;
+[[nodiscard]] constexpr std::string_view name_of(EventKind kind) noexcept {
+    switch (kind) {
+        case EventKind::touchdown:
+            return "touchdown";
+        case EventKind::stick:
+            return "stick";
+        case EventKind::slip:
+            return "slip";
+        case EventKind::separation:
+            return "separation";
+        case EventKind::recovered:
+            return "recovered";
+    }
+    return "";
+}
 
 }  // namespace footfall

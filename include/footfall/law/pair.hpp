@@ -76,43 +76,36 @@ public:
     // ---- how the contact stands ----------------------------------------------------------------------------------
 
     /// The answer in a mode, as a smooth function of its arguments: s may be a little below zero, F_n a little
-    /// negative. Writes the rates of the states. Not for flight, nor for a contact that drags.
-    [[nodiscard, gnu::always_inline]] Response<S> respond(Mode mode, const Touch<S>& t, States x,
-                                                          std::span<S> rates) const noexcept {
+    /// negative. Writes r and the rates of the states. Not for flight, nor for a contact that drags.
+    [[gnu::always_inline]] void respond(Mode mode, const Touch<S>& t, States x, std::span<S> rates,
+                                        Response<S>& r) const noexcept {
         const S scale = scale_at(t.root_depth);
         const NormalForce<S> phi = normal_over_scale(t, x);
         if (normal_state_count() > 0) put_normal_rates(t, x, rates);
-        Response<S> r;
-        FrictionAnswer<S> f;
+        r = {};
         const std::span<S> own = rates.subspan(count(normal_state_count()));
         if (mode.loaded()) {
             const Load<S> load{scale, phi.total()};
             r.push.normal = load.force();                                        // (13)
             r.power[by_normal_damper] = scale * phi.dissipative * t.depth_rate;  // (16)
-            f = of_friction([&](const auto& part) __attribute__((always_inline)) {
-                return part.respond(mode.phase, t, load, friction_states(x), own);
+            of_friction([&](const auto& part) __attribute__((always_inline)) {
+                part.respond(mode.phase, t, load, friction_states(x), own, r);
             });
         } else {
             r.power[by_normal_damper] = -(scale * phi.elastic) * t.depth_rate;  // (14): it takes what the spring gives
-            f = of_friction([&](const auto& part) { return part.idle(t, scale, friction_states(x), own); });
+            of_friction([&](const auto& part) { part.idle(t, scale, friction_states(x), own, r); });
         }
         if (normal_state_count() > 0) r.power[by_normal_damper] += scale * phi.relaxation;
-        put(f, r);
-        r.asks_for_load_rate = f.asks_for_load_rate;
-        return r;
     }
 
     /// What follows from d(F_n / s^p)/dt, where the law asks for it.
     void complete(Mode mode, const Touch<S>& t, States x, const S& load_rate, std::span<S> rates,
                   Response<S>& r) const noexcept {
         const Load<S> load = load_at(t, x);
-        FrictionAnswer<S> f{r.push.friction,    r.power[by_tangential_damper], r.power[by_clutch], r.power[unpaid],
-                            r.push.spin_torque, r.push.rolling_torque};
         of_friction([&](const auto& part) {
             part.complete(mode.phase, t, load, load_rate, friction_states(x),
-                          rates.subspan(count(normal_state_count())), f);
+                          rates.subspan(count(normal_state_count())), r);
         });
-        put(f, r);
     }
 
     /// d(F_n / s^p)/dt under a depth acceleration [m/s^2].
@@ -174,12 +167,15 @@ public:
     /// fast the load changes takes it as constant.
     [[nodiscard, gnu::always_inline]] ContactResponse<S> evaluate(Mode mode, const Touch<S>& t, States x,
                                                                   std::span<S> rates) const noexcept {
-        return gathered(mode, t, x, rates, mode.touches() ? respond(mode, t, x, rates) : fly(t, x, rates));
+        Response<S> r;
+        answer(mode, t, x, rates, r);
+        return gathered(mode, t, x, rates, r);
     }
     /// The same under a load that changes: `load_rate` is d(F_n / s^p)/dt.
     [[nodiscard]] ContactResponse<S> evaluate(Mode mode, const Touch<S>& t, States x, std::span<S> rates,
                                               const S& load_rate) const noexcept {
-        Response<S> r = mode.touches() ? respond(mode, t, x, rates) : fly(t, x, rates);
+        Response<S> r;
+        answer(mode, t, x, rates, r);
         if (r.asks_for_load_rate) complete(mode, t, x, load_rate, rates, r);
         return gathered(mode, t, x, rates, r);
     }
@@ -373,25 +369,22 @@ private:
         return of_friction(
             [&](const auto& part) { return part.margin(phase, t, load, load_rate, friction_states(x)); });
     }
-    [[gnu::always_inline]] static void put(const FrictionAnswer<S>& f, Response<S>& r) noexcept {
-        r.push.friction = f.force;
-        r.push.spin_torque = f.spin_torque;
-        r.push.rolling_torque = f.rolling_torque;
-        r.power[by_tangential_damper] = f.damper_power;
-        r.power[by_clutch] = f.clutch_power;
-        r.power[unpaid] = f.unpaid_power;
+    /// In any mode but one that drags.
+    [[gnu::always_inline]] void answer(Mode mode, const Touch<S>& t, States x, std::span<S> rates,
+                                       Response<S>& r) const noexcept {
+        if (mode.touches()) {
+            respond(mode, t, x, rates, r);
+        } else {
+            fly(t, x, rates, r);
+        }
     }
-
     /// In flight the bristle recovers.
-    [[nodiscard, gnu::always_inline]] Response<S> fly(const Touch<S>& t, States x, std::span<S> rates) const noexcept {
+    [[gnu::always_inline]] void fly(const Touch<S>& t, States x, std::span<S> rates, Response<S>& r) const noexcept {
         for (S& rate : rates.first(count(normal_state_count()))) rate = S(0);
         const std::span<S> own = rates.subspan(count(normal_state_count()));
-        FrictionAnswer<S> f =
-            of_friction([&](const auto& part) { return part.idle(t, scale_at(S(0)), friction_states(x), own); });
-        f.unpaid_power = S(0);  // there is no depth that could change
-        Response<S> r;
-        put(f, r);
-        return r;
+        r = {};
+        of_friction([&](const auto& part) { part.idle(t, scale_at(S(0)), friction_states(x), own, r); });
+        r.power[unpaid] = S(0);  // there is no depth that could change
     }
     [[nodiscard, gnu::always_inline]] ContactResponse<S> gathered(Mode mode, const Touch<S>& t, States x,
                                                                   std::span<const S> rates,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -29,6 +30,8 @@
 #include "footfall/law/normal/marhefka_orin.hpp"
 #include "footfall/law/normal/tsuji.hpp"
 #include "footfall/law/pair.hpp"
+#include "footfall/math/error.hpp"
+#include "footfall/math/number_text.hpp"
 
 namespace footfall {
 
@@ -92,9 +95,36 @@ template <class Variant>
 
 /// Whether what the clutch of a friction law has taken can never fall. A law that can give back says so, and for which
 /// of its parameters, by a member of this name.
-[[nodiscard]] bool clutch_only_takes(const FrictionLaw& law);
+[[nodiscard]] inline bool clutch_only_takes(const FrictionLaw& law) {
+    return std::visit(
+        [](const auto& l) {
+            if constexpr (requires { l.clutch_only_takes(); }) {
+                return l.clutch_only_takes();
+            } else {
+                return true;
+            }
+        },
+        law);
+}
 
 /// Throws InvalidInput where a parameter of a law is outside its range; `who` names the law's place in the message.
-void check(const ContactParameters& contact, std::string_view who);
+inline void check(const ContactParameters& contact, std::string_view who) {
+    const auto check_one = [&](const auto& law, std::string_view part) {
+        for (const auto& p : law.parameters()) {
+            const double value = law.*p.member;
+            if (p.allows(value)) continue;
+            std::string what;
+            for (const std::string_view word :
+                 {who, std::string_view(": "), part, std::string_view(" law '"), law.description.name,
+                  std::string_view("': "), p.key, std::string_view(" ("), p.symbol, std::string_view(", "),
+                  p.description, std::string_view(") is ")})
+                what += word;
+            what += number_text(value) + " " + std::string(p.unit) + "; allowed is " + std::string(p.range());
+            throw InvalidInput(what + ", finite");
+        }
+    };
+    std::visit([&](const auto& law) { check_one(law, "normal"); }, contact.normal);
+    std::visit([&](const auto& law) { check_one(law, "friction"); }, contact.friction);
+}
 
 }  // namespace footfall

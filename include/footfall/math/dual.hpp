@@ -14,8 +14,6 @@
 #include <cstddef>
 #include <type_traits>
 
-#include <Eigen/Core>
-
 namespace footfall {
 
 /// A number with its derivatives with respect to N inputs. N >= 1; T a floating-point type, or again a Dual.
@@ -243,30 +241,3 @@ private:
 };
 
 }  // namespace footfall
-
-/// Lets Eigen's matrices hold dual numbers.
-template <class T, int N>
-struct Eigen::NumTraits<footfall::Dual<T, N>> : Eigen::NumTraits<T> {
-    using Real = footfall::Dual<T, N>;
-    using NonInteger = footfall::Dual<T, N>;
-    using Nested = footfall::Dual<T, N>;
-    enum {
-        IsComplex = 0,
-        IsInteger = 0,
-        IsSigned = 1,
-        RequireInitialization = 1,
-        ReadCost = (N + 1) * NumTraits<T>::ReadCost,
-        AddCost = (N + 1) * NumTraits<T>::AddCost,
-        MulCost = (2 * N + 1) * NumTraits<T>::MulCost
-    };
-};
-
-/// Lets constants of type T stand beside matrices of dual numbers, as in 2.0 * v.
-template <class T, int N, class Operation>
-struct Eigen::ScalarBinaryOpTraits<T, footfall::Dual<T, N>, Operation> {
-    using ReturnType = footfall::Dual<T, N>;
-};
-template <class T, int N, class Operation>
-struct Eigen::ScalarBinaryOpTraits<footfall::Dual<T, N>, T, Operation> {
-    using ReturnType = footfall::Dual<T, N>;
-};

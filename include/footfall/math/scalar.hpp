@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <utility>
 
 namespace footfall {
 
@@ -23,6 +24,13 @@ concept Scalar = requires(T a, T b) {
 template <class S>
 [[nodiscard]] constexpr S select(bool chosen, const S& a, const S& b) noexcept {
     return chosen ? a : b;
+}
+
+/// f(0), f(1), ..., f(N - 1), without a loop.
+template <int N, class F>
+[[gnu::always_inline]] constexpr void unrolled(F&& f) {
+    [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) { (f(I), ...); }
+    (std::make_integer_sequence<int, N>{});
 }
 
 /// x^N for an integer N known at compile time, by multiplication (division where N < 0).

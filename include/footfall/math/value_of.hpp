@@ -6,8 +6,6 @@
 #include <type_traits>
 #include <utility>
 
-#include <Eigen/Core>
-
 #include "footfall/math/dual.hpp"
 
 namespace footfall {
@@ -27,23 +25,5 @@ template <class T, int N>
 /// double for double and Dual<double, N>, long double for long double and Dual<long double, N>.
 template <class S>
 using ValueOf = std::remove_cvref_t<decltype(value_of(std::declval<const S&>()))>;
-
-/// The array of a value for each component; of plain numbers, the array itself.
-template <class Array>
-[[nodiscard]] decltype(auto) values_of(const Array& y) {
-    using S = typename Array::Scalar;
-    if constexpr (std::floating_point<S>) {
-        return (y);
-    } else {
-        return y.unaryExpr([](const S& x) { return value_of(x); }).eval();
-    }
-}
-
-template <class Array>
-void values_of(const Array&& y) = delete;  // the array itself would be gone
-
-/// The array type of the values of an array type, with its shape.
-template <class Array>
-using ValuesOf = std::remove_cvref_t<decltype(values_of(std::declval<const Array&>()))>;
 
 }  // namespace footfall

@@ -16,7 +16,10 @@
 #include <cmath>
 #include <vector>
 
+#include <Eigen/LU>
+
 #include "footfall/body/body.hpp"
+#include "footfall/eigen/interop.hpp"
 #include "footfall/law/push.hpp"
 #include "footfall/law/touch.hpp"
 #include "footfall/math/vector.hpp"
@@ -38,13 +41,13 @@ public:
     FreeBody(const Body& body, const Ground& ground, const Eigen::Vector3d& gravity)
         : mass_(body.mass),
           inverse_mass_(S(1) / mass_),
-          inverse_inertia_(body.inertia.inverse().cast<S>()),
+          inverse_inertia_(inverse_of(body.inertia)),
           gravity_(GroundFrame<S>(ground.normal).to_ground(gravity)),
           height_(ground.height) {
         isotropic_ = body.inertia.isApprox(Eigen::Matrix3d(body.inertia(0, 0) * Eigen::Matrix3d::Identity()), 0.0);
         oriented_ = !isotropic_;
         for (const Sphere& sphere : body.spheres) {
-            centers_.push_back(sphere.center.cast<S>());
+            centers_.push_back(from_eigen(sphere.center).template cast<S>());
             radii_.push_back(S(sphere.radius));
             oriented_ = oriented_ || !sphere.center.isZero(0);
         }
@@ -68,27 +71,28 @@ public:
     template <class State>
     [[nodiscard, gnu::always_inline]] Motion motion(const State& y) const noexcept {
         Motion m;
-        m.velocity = y.template segment<3>(velocity).matrix();
-        m.momentum = y.template segment<3>(momentum).matrix();
-        if (oriented_) m.rotation = quaternion(y).toRotationMatrix();
+        m.velocity = three_at(y, velocity);
+        m.momentum = three_at(y, momentum);
+        if (oriented_)
+            m.rotation = rotation_of(y[orientation + 3], y[orientation], y[orientation + 1], y[orientation + 2]);
         m.angular_velocity = by_inverse_inertia(m, m.momentum);
         return m;
     }
 
     template <class State>
-    [[nodiscard]] static Quaternion<S> quaternion(const State& y) noexcept {
-        return Quaternion<S>(Eigen::Matrix<S, 4, 1>(y.template segment<4>(orientation).matrix()));
+    [[nodiscard]] static Eigen::Quaternion<S> quaternion(const State& y) noexcept {
+        return {y[orientation + 3], y[orientation], y[orientation + 1], y[orientation + 2]};
     }
 
     /// How contact i stands. (36)
     template <class State>
     [[nodiscard, gnu::always_inline]] Touch<S> touch(const State& y, const Motion& m, int i) const noexcept {
-        Vector3<S> at_contact = bottom_velocity(m, i);
+        const Vector3<S> at_contact = bottom_velocity(m, i);
         return {root_depth(y, i),
                 -at_contact.z(),
-                at_contact.template head<2>(),
+                at_contact.in_plane(),
                 m.angular_velocity.z(),
-                m.angular_velocity.template head<2>(),
+                m.angular_velocity.in_plane(),
                 radius(i)};
     }
     [[nodiscard]] S depth_rate(const Motion& m, int i) const noexcept { return -bottom_velocity(m, i).z(); }
@@ -181,7 +185,7 @@ public:
 
     template <class State>
     [[nodiscard]] static Vector3<S> position(const State& y, int follow) noexcept {
-        return y.template segment<3>(follow).matrix();
+        return three_at(y, follow);
     }
     /// z of contact i from the body's position.
     template <class State>
@@ -230,6 +234,15 @@ private:
     friend class FreeBody;
     FreeBody() = default;
 
+    template <class State>
+    [[nodiscard, gnu::always_inline]] static Vector3<S> three_at(const State& y, int first) noexcept {
+        return {y[first], y[first + 1], y[first + 2]};
+    }
+    [[nodiscard]] static Matrix3<S> inverse_of(const Eigen::Matrix3d& inertia) {
+        const Eigen::Matrix3d inverse = inertia.inverse();
+        const auto row = [&](int i) { return Vector3<S>(S(inverse(i, 0)), S(inverse(i, 1)), S(inverse(i, 2))); };
+        return {{row(0), row(1), row(2)}};
+    }
     /// From the centre of mass to the sphere's centre.
     [[nodiscard, gnu::always_inline]] Vector3<S> center(const Motion& m, int i) const noexcept {
         if (!oriented_) return Vector3<S>::Zero();
@@ -249,8 +262,8 @@ private:
     }
     [[nodiscard, gnu::always_inline]] Vector3<S> by_inverse_inertia(const Motion& m,
                                                                     const Vector3<S>& v) const noexcept {
-        if (isotropic_) return v * inverse_inertia_(0, 0);
-        return m.rotation * (inverse_inertia_ * (m.rotation.transpose() * v));
+        if (isotropic_) return v * inverse_inertia_.row[0][0];
+        return m.rotation * (inverse_inertia_ * m.rotation.transposed_times(v));
     }
     S mass_, inverse_mass_;
     Matrix3<S> inverse_inertia_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "footfall/eigen/interop.hpp"
 #include "footfall/plant/ground_frame.hpp"
 #include "footfall/simulate/hybrid.hpp"
 #include "footfall/simulate/run.hpp"

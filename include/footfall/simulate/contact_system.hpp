@@ -66,13 +66,13 @@ public:
     void evaluate(const State& y, State& rate, Guards* guards) const noexcept { hybrid_.evaluate(y, rate, guards); }
 
     /// d(rate)/dy of the motion, and its product with a vector; what they cost, in evaluations.
-    template <class Vector, class Matrix>
-    std::int64_t jacobian(const Vector& y, Matrix& J) {
+    template <class Values, class Matrix>
+    std::int64_t jacobian(const Values& y, Matrix& J) {
         listener_.jacobian(motion_size(), State(y));
         return derivatives_.jacobian(hybrid_, y, J);
     }
-    template <class Vector, class Product>
-    std::int64_t along(const Vector& y, const Product& v, Product& Jv) {
+    template <class Values, class Product>
+    std::int64_t along(const Values& y, const Product& v, Product& Jv) {
         return derivatives_.along(hybrid_, y, v, Jv);
     }
 

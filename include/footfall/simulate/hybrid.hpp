@@ -18,9 +18,11 @@
 
 #include <Eigen/LU>
 
+#include "footfall/eigen/interop.hpp"
 #include "footfall/law/mode.hpp"
 #include "footfall/law/push.hpp"
 #include "footfall/law/touch.hpp"
+#include "footfall/math/scalar.hpp"
 #include "footfall/math/vector.hpp"
 
 namespace footfall {
@@ -219,8 +221,18 @@ private:
         }
         plant_.rates(y, m, total, g, follow(), rate);
         rate[clock()] = g;
-        for (int i = 0; i < this->contacts(); ++i) contact_rates(contacts[index(i)], y, i, g, rate);
+        each_contact([&](int i) __attribute__((always_inline)) { contact_rates(contacts[index(i)], y, i, g, rate); });
         if (guards) fill_guards(contacts, y, m, *guards);
+    }
+
+    /// f(i) for every contact. Where their count is known no loop runs, so that what is kept of them needs no memory.
+    template <class F>
+    [[gnu::always_inline]] void each_contact(F&& f) const noexcept {
+        if constexpr (fixed) {
+            unrolled<contacts_at_compile_time>(f);
+        } else {
+            for (int i = 0; i < contacts(); ++i) f(i);
+        }
     }
 
     /// What every contact does, and what that adds up to. Writes the rates of the laws' states over time.
@@ -229,7 +241,9 @@ private:
                                       Rates& rates) const noexcept {
         Action total;
         bool special = false;  // some contact asks for its load's rate, or drags
-        for (int i = 0; i < this->contacts(); ++i) special = respond_one(contacts, y, m, rates, i, total) || special;
+        each_contact([&](int i) __attribute__((always_inline)) {
+            special = respond_one(contacts, y, m, rates, i, total) || special;
+        });
         if (special) [[unlikely]] {
             if constexpr (fixed) {  // on copies: what has an address stays in memory
                 Contacts copies = contacts;
@@ -254,7 +268,7 @@ private:
         // all that is left of it.
         if (mode(i).drags) [[unlikely]]
             c.touch.depth_rate = law(i).unloading_rate(c.touch, states(y, i));
-        c.response = law(i).respond(mode(i), c.touch, states(y, i), rates_of(rates, i));
+        law(i).respond(mode(i), c.touch, states(y, i), rates_of(rates, i), c.response);
         plant_.push(total, m, i, c.response.push);
         return c.response.asks_for_load_rate || mode(i).drags;
     }
@@ -295,8 +309,8 @@ private:
         for (int i = 0; i < this->contacts(); ++i) {
             if (!mode(i).drags) continue;
             dragging.push_back(i);
-            slipping.push_back(
-                law(i).respond({Phase::slip}, contacts[index(i)].touch, states(y, i), rates_of(slipping_rates, i)));
+            law(i).respond({Phase::slip}, contacts[index(i)].touch, states(y, i), rates_of(slipping_rates, i),
+                           slipping.emplace_back());
         }
         const auto n = static_cast<Eigen::Index>(dragging.size());
         Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> effect(n, n);
@@ -335,17 +349,17 @@ private:
         if (!touches(i)) {
             // s stays 0. What the states do in flight is known in closed form (relax).
             plant_.root_depth_rate(y, i, S(0), g, true, rate);
-            for (int k = 0; k < taken_channels; ++k) rate[taken(i) + k] = S(0);
+            unrolled<taken_channels>([&](int k) { rate[taken(i) + k] = S(0); });
             return;
         }
         plant_.root_depth_rate(y, i, c.touch.depth_rate, g, contacts_at_compile_time == 1 && !mode(i).drags, rate);
-        for (int k = 0; k < taken_channels; ++k) rate[taken(i) + k] = c.response.power[index(k)] * g;
+        unrolled<taken_channels>([&](int k) { rate[taken(i) + k] = c.response.power[index(k)] * g; });
     }
 
     template <class Contacts>
     [[gnu::always_inline]] void fill_guards(const Contacts& contacts, const State& y, const Motion& m,
                                             Guards& guards) const noexcept {
-        for (int i = 0; i < this->contacts(); ++i) {
+        each_contact([&](int i) __attribute__((always_inline)) {
             const Contact& c = contacts[index(i)];
             const std::span<S, guards_per_contact> own(&guards[guards_per_contact * i], guards_per_contact);
             if (!touches(i)) {
@@ -358,7 +372,7 @@ private:
             } else {
                 law(i).fill_guards(mode(i), c.touch, states(y, i), c.load_rate, own);
             }
-        }
+        });
     }
 
     Plant plant_;

@@ -22,10 +22,10 @@ template <class Hybrid>
     const Eigen::Matrix3d R = b.orientation.toRotationMatrix();
     const Eigen::Vector3d momentum = R * simulation.body.inertia * R.transpose() * b.angular_velocity;
     typename Hybrid::State y = Hybrid::State::Zero(hybrid.size());
-    y.template segment<3>(Plant::velocity) = frame.to_ground(b.velocity).array();
-    y.template segment<3>(Plant::momentum) = frame.to_ground(momentum).array();
+    y.template segment<3>(Plant::velocity) = to_eigen(frame.to_ground(b.velocity)).array();
+    y.template segment<3>(Plant::momentum) = to_eigen(frame.to_ground(momentum)).array();
     y.template segment<4>(Plant::orientation) = frame.to_ground(b.orientation).coeffs().array();
-    y.template segment<3>(hybrid.follow()) = frame.to_ground(b.position).array();
+    y.template segment<3>(hybrid.follow()) = to_eigen(frame.to_ground(b.position)).array();
     return y;
 }
 

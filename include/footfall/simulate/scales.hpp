@@ -49,7 +49,8 @@ public:
         for (int i = 0; i < hybrid.contacts(); ++i) {
             double& seen = bristle_seen_[static_cast<std::size_t>(i)];
             const auto u = hybrid.law(i).bristle(hybrid.states(y, i));
-            seen = std::max(seen, std::hypot(as_double(u.x()), as_double(u.y())));
+            const double ux = as_double(u.x()), uy = as_double(u.y());
+            seen = std::max(seen, std::sqrt(ux * ux + uy * uy));
         }
     }
 

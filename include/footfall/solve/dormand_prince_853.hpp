@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "footfall/eigen/interop.hpp"
 #include "footfall/math/value_of.hpp"
 #include "footfall/solve/dormand_prince_853_table.hpp"
 

@@ -6,7 +6,7 @@
 #include <concepts>
 #include <utility>
 
-#include "footfall/math/value_of.hpp"
+#include "footfall/eigen/interop.hpp"
 #include "footfall/solve/dormand_prince_853.hpp"
 #include "footfall/solve/radau.hpp"
 

@@ -22,6 +22,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
+#include "footfall/eigen/interop.hpp"
 #include "footfall/math/value_of.hpp"
 #include "footfall/solve/radau_table.hpp"
 #include "footfall/solve/value_solve.hpp"

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "footfall/eigen/interop.hpp"
 #include "footfall/math/value_of.hpp"
 #include "footfall/solve/crossing_search.hpp"
 #include "footfall/solve/first_zero.hpp"

@@ -29,16 +29,6 @@ struct Load {
     [[nodiscard]] S force() const noexcept { return scale * over_scale; }
 };
 
-/// What friction adds to a contact.
-template <class S>
-struct FrictionAnswer {
-    Vector2<S> force = Vector2<S>::Zero();  ///< F_f [N]
-    S damper_power = S(0), clutch_power = S(0), unpaid_power = S(0);
-    S spin_torque = S(0);
-    Vector2<S> rolling_torque = Vector2<S>::Zero();
-    bool asks_for_load_rate = false;  ///< some of it waits for how fast the load changes
-};
-
 /// What follows where a phase of friction ends: the next one, and what the clutch takes at once [J].
 template <class S>
 struct FrictionChange {
@@ -74,13 +64,12 @@ struct FrictionPart<NoFriction<S>> {
     [[nodiscard]] static double slip_lag(const S&) noexcept { return 0; }
     [[nodiscard]] static Vector2<S> bristle(States) noexcept { return Vector2<S>::Zero(); }
     [[nodiscard]] static bool may_drag() noexcept { return false; }
-    [[nodiscard]] static FrictionAnswer<S> respond(Phase, const Touch<S>&, const Load<S>&, States,
-                                                   std::span<S>) noexcept {
-        return {};
-    }
+    /// Each adds its part to what a contact does, and writes the rates of its states: under a load, what waits for how
+    /// fast that changes, and without one.
+    static void respond(Phase, const Touch<S>&, const Load<S>&, States, std::span<S>, Response<S>&) noexcept {}
     static void complete(Phase, const Touch<S>&, const Load<S>&, const S&, States, std::span<S>,
-                         FrictionAnswer<S>&) noexcept {}
-    [[nodiscard]] static FrictionAnswer<S> idle(const Touch<S>&, const S&, States, std::span<S>) noexcept { return {}; }
+                         Response<S>&) noexcept {}
+    static void idle(const Touch<S>&, const S&, States, std::span<S>, Response<S>&) noexcept {}
     [[nodiscard]] static S relax(const S&, const S&, std::span<S>) noexcept { return S(0); }
     [[nodiscard]] static S stored(Phase, const Load<S>&, States) noexcept { return S(0); }
     [[nodiscard]] static Phase first(const Touch<S>&, const Load<S>&, States, const S&) noexcept { return Phase::slip; }
@@ -134,25 +123,22 @@ struct FrictionPart<Law> {
     /// A viscous clutch loses its hold at F_n = 0, so that friction jumps there.
     [[nodiscard]] bool may_drag() const noexcept { return law.viscous > S(0) && law.damping > S(0); }
 
-    [[nodiscard, gnu::always_inline]] FrictionAnswer<S> respond(Phase phase, const Touch<S>& t, const Load<S>& load,
-                                                                States x, std::span<S> rates) const noexcept {
-        return respond(phase, t, load, S(0), x, rates);
+    [[gnu::always_inline]] void respond(Phase phase, const Touch<S>& t, const Load<S>& load, States x,
+                                        std::span<S> rates, Response<S>& r) const noexcept {
+        respond(phase, t, load, S(0), x, rates, r);
     }
     void complete(Phase phase, const Touch<S>& t, const Load<S>& load, const S& load_rate, States x, std::span<S> rates,
-                  FrictionAnswer<S>& answer) const noexcept {
-        answer = respond(phase, t, load, load_rate, x, rates);
+                  Response<S>& r) const noexcept {
+        respond(phase, t, load, load_rate, x, rates, r);
     }
 
     /// With no force on it the bristle recovers; one without damping has no memory of its own. (31) with F_f = 0.
-    [[nodiscard]] FrictionAnswer<S> idle(const Touch<S>& t, const S& scale, States x,
-                                         std::span<S> rates) const noexcept {
+    void idle(const Touch<S>& t, const S& scale, States x, std::span<S> rates, Response<S>& r) const noexcept {
         const Vector2<S> u = bristle(x);
         const Vector2<S> u_rate = (law.damping > S(0) ? S(-law.recovery_rate()) : S(0)) * u;
         put_vector(rates, 0, u_rate);
-        FrictionAnswer<S> a;
-        a.damper_power = scale * law.damping * u_rate.squaredNorm();  // (28)
-        a.unpaid_power = -law.stiffening_power(t.root_depth, t.depth_rate, u);
-        return a;
+        r.power[by_tangential_damper] = scale * law.damping * u_rate.squaredNorm();  // (28)
+        r.power[unpaid] = -law.stiffening_power(t.root_depth, t.depth_rate, u);
     }
 
     /// In flight udot = -(K_t/D_t) u, whose solution needs no method. Where the spring has a stiffness at z = 0, as the
@@ -232,21 +218,23 @@ struct FrictionPart<Law> {
     }
 
 private:
-    [[nodiscard, gnu::always_inline]] FrictionAnswer<S> respond(Phase phase, const Touch<S>& t, const Load<S>& load,
-                                                                const S& load_rate, States x,
-                                                                std::span<S> rates) const noexcept {
+    [[gnu::always_inline]] void respond(Phase phase, const Touch<S>& t, const Load<S>& load, const S& load_rate,
+                                        States x, std::span<S> rates, Response<S>& r) const noexcept {
         const Vector2<S> u = bristle(x);
-        const auto r =
-            phase == Phase::stick ? law.stick(t.slip, u) : law.slip(load.scale, load.over_scale, load_rate, t.slip, u);
-        put_vector(rates, 0, r.bristle_rate);
-        FrictionAnswer<S> a;
-        a.force = load.scale * r.force;
-        a.damper_power = load.scale * law.damping * r.bristle_rate.squaredNorm();  // (28)
-        a.clutch_power = -a.force.dot(r.clutch_velocity);                          // (29), (30)
-        a.unpaid_power = -law.stiffening_power(t.root_depth, t.depth_rate, u);
+        const auto book = [&](const FrictionResponse<S>& f) __attribute__((always_inline)) {
+            put_vector(rates, 0, f.bristle_rate);
+            r.push.friction = load.scale * f.force;
+            r.power[by_tangential_damper] = load.scale * law.damping * f.bristle_rate.squaredNorm();  // (28)
+            r.power[by_clutch] = -r.push.friction.dot(f.clutch_velocity);                             // (29), (30)
+        };
+        if (phase == Phase::stick) {
+            book(law.stick(t.slip, u));
+        } else {
+            book(law.slip(load.scale, load.over_scale, load_rate, t.slip, u));
+        }
+        r.power[unpaid] = -law.stiffening_power(t.root_depth, t.depth_rate, u);
         // Without D_t and C_V the clutch's velocity depends on how fast its load changes.
-        a.asks_for_load_rate = phase == Phase::slip && law.plastic();
-        return a;
+        r.asks_for_load_rate = phase == Phase::slip && law.plastic();
     }
 };
 
@@ -299,36 +287,33 @@ struct FrictionPart<Law> {
     }
     [[nodiscard]] static bool may_drag() noexcept { return false; }
 
-    [[nodiscard, gnu::always_inline]] FrictionAnswer<S> respond(Phase phase, const Touch<S>& t, const Load<S>& load,
-                                                                States x, std::span<S> rates) const noexcept {
+    [[gnu::always_inline]] void respond(Phase phase, const Touch<S>& t, const Load<S>& load, States x,
+                                        std::span<S> rates, Response<S>& r) const noexcept {
         const S F_n = load.force();
-        FrictionAnswer<S> a;
-        const auto book = [&](const RateResponse<S>& r, const S& torques_power) {
-            a.force = F_n * r.traction;
-            a.damper_power = F_n * r.damper_power;
-            a.clutch_power = F_n * (-r.traction.dot(t.slip) - torques_power - r.stored_rate - r.damper_power);
+        const auto book = [&](const RateResponse<S>& f, const S& torques_power) {
+            r.push.friction = F_n * f.traction;
+            r.power[by_tangential_damper] = F_n * f.damper_power;
+            r.power[by_clutch] = F_n * (-f.traction.dot(t.slip) - torques_power - f.stored_rate - f.damper_power);
         };
         if constexpr (CoupledFriction<Law>) {
-            const CoupledResponse<S> r = law.respond(t, x, rates);
-            book(r, r.spin_arm * t.spin + r.rolling_arm.dot(t.rolling));
-            a.spin_torque = F_n * r.spin_arm;
-            a.rolling_torque = F_n * r.rolling_arm;
+            const CoupledResponse<S> f = law.respond(t, x, rates);
+            book(f, f.spin_arm * t.spin + f.rolling_arm.dot(t.rolling));
+            r.push.spin_torque = F_n * f.spin_arm;
+            r.push.rolling_torque = F_n * f.rolling_arm;
         } else if constexpr (JumpingRateFriction<Law>) {
             book(law.respond(phase, t.slip, x, rates), S(0));
         } else {
             book(law.respond(t.slip, x, rates), S(0));
         }
         // What is stored is in proportion to the load, and no force pays for its change.
-        if constexpr (Law::states > 0) a.asks_for_load_rate = over_load(phase, x) > S(0);
-        return a;
+        if constexpr (Law::states > 0) r.asks_for_load_rate = over_load(phase, x) > S(0);
     }
     void complete(Phase phase, const Touch<S>&, const Load<S>&, const S& load_rate, States x, std::span<S>,
-                  FrictionAnswer<S>& answer) const noexcept {
-        answer.unpaid_power = -over_load(phase, x) * load_rate;
+                  Response<S>& r) const noexcept {
+        r.power[unpaid] = -over_load(phase, x) * load_rate;
     }
-    [[nodiscard]] static FrictionAnswer<S> idle(const Touch<S>&, const S&, States, std::span<S> rates) noexcept {
+    static void idle(const Touch<S>&, const S&, States, std::span<S> rates, Response<S>&) noexcept {
         for (S& rate : rates) rate = S(0);
-        return {};
     }
     [[nodiscard]] static S relax(const S&, const S&, std::span<S>) noexcept { return S(0); }
     [[nodiscard]] S stored(Phase phase, const Load<S>& load, States x) const noexcept {

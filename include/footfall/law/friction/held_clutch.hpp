@@ -19,8 +19,6 @@
 #include <span>
 #include <utility>
 
-#include <Eigen/LU>
-
 #include "footfall/law/friction/held_friction.hpp"
 #include "footfall/math/dual.hpp"
 #include "footfall/math/vector.hpp"
@@ -61,9 +59,22 @@ private:
     using Slope = Dual<double, 2>;
     using DualFriction = decltype(std::declval<const Friction&>().template cast<Slope>());
 
-    /// udot, F_f and the powers of damper and clutch: what is integrated.
-    using Rates = Eigen::Matrix<double, 6, 1>;
-    static constexpr int force_at = 2, damper_at = 4, clutch_at = 5;
+    /// udot, F_f and the powers of damper and clutch: what is integrated; or what that has come to.
+    template <class S>
+    struct RatesOf {
+        Vector2<S> bristle, force;
+        S damper{}, clutch{};
+
+        [[nodiscard]] friend RatesOf operator*(const S& k, const RatesOf& a) noexcept {
+            return {k * a.bristle, k * a.force, k * a.damper, k * a.clutch};
+        }
+        [[nodiscard]] friend RatesOf operator+(const RatesOf& a, const RatesOf& b) noexcept {
+            return {a.bristle + b.bristle, a.force + b.force, a.damper + b.damper, a.clutch + b.clutch};
+        }
+        [[nodiscard]] friend RatesOf operator-(const RatesOf& a, const RatesOf& b) noexcept { return a + S(-1) * b; }
+    };
+    using Rates = RatesOf<double>;
+    using Jacobian = std::array<Rates, 2>;  // by each component of the bristle
 
     void recover(const Held& held, double dt, Step& step) const noexcept {
         const Friction& friction = friction_;
@@ -73,7 +84,7 @@ private:
             step.bristle *= std::exp(-decay);
             step.tangential_damper = -stored * std::expm1(-2 * decay);
         } else {  // released at once
-            step.bristle.setZero();
+            step.bristle = {};
             step.tangential_damper = stored;
         }
     }
@@ -100,10 +111,10 @@ private:
             }
             step.phase = Phase::slip;
             const auto [h, change] = sub_step(held, step.bristle, std::min(left, proposed), dt, size, proposed);
-            step.bristle += change.template head<2>();
-            impulse += change.template segment<2>(force_at);
-            step.tangential_damper += change[damper_at];
-            step.clutch += change[clutch_at];
+            step.bristle += change.bristle;
+            impulse += change.force;
+            step.tangential_damper += change.damper;
+            step.clutch += change.clutch;
             size = std::max(size, step.bristle.norm());
             if (!step.bristle.allFinite()) return;
             left = h < left ? left - h : 0;
@@ -128,15 +139,12 @@ private:
 
     /// udot, forces and powers in slip, a little inside the cone as well. (27)-(31)
     template <class AnyFriction, class S>
-    [[nodiscard]] static Eigen::Matrix<S, 6, 1> rates(const AnyFriction& friction, const Held& held,
-                                                      const Vector2<S>& u) noexcept {
+    [[nodiscard]] static RatesOf<S> rates(const AnyFriction& friction, const Held& held, const Vector2<S>& u) noexcept {
         const S scale(held.scale);
-        const auto t = friction.slip(scale, S(held.phi_n), S(0), Vector2<S>(S(held.V[0]), S(held.V[1])), u);
+        const auto t = friction.slip(scale, S(held.phi_n), S(0), held.V.template cast<S>(), u);
         const Vector2<S> force = scale * t.force;
-        Eigen::Matrix<S, 6, 1> all;
-        all << t.bristle_rate, force, scale * friction.damping * t.bristle_rate.squaredNorm(),
-            -force.dot(t.clutch_velocity);
-        return all;
+        return {t.bristle_rate, force, scale * friction.damping * t.bristle_rate.squaredNorm(),
+                -force.dot(t.clutch_velocity)};
     }
 
     struct SubStep {
@@ -148,34 +156,34 @@ private:
     [[nodiscard]] SubStep sub_step(const Held& held, const Vector2<double>& u, double h, double dt, double size,
                                    double& proposed) const noexcept {
         const Friction& friction = friction_;
-        const Eigen::Matrix<Slope, 6, 1> at =
+        const RatesOf<Slope> at =
             rates<DualFriction, Slope>(dual_, held, {Slope::variable(u[0], 0), Slope::variable(u[1], 1)});
-        Rates f;
-        Eigen::Matrix<double, 6, 2> J;
-        for (int i = 0; i < 6; ++i) {
-            f[i] = at[i].value;
-            J(i, 0) = at[i].gradient[0];
-            J(i, 1) = at[i].gradient[1];
-        }
+        const auto part = [&at](auto&& of) -> Rates {
+            return {{of(at.bristle[0]), of(at.bristle[1])},
+                    {of(at.force[0]), of(at.force[1])},
+                    of(at.damper),
+                    of(at.clutch)};
+        };
+        const Rates f = part([](const Slope& x) { return x.value; });
+        const Jacobian J{part([](const Slope& x) { return x.gradient[0]; }),
+                         part([](const Slope& x) { return x.gradient[1]; })};
         const double margin = friction.cone_margin(held.phi_n, held.V, u);  // <= 0
         const double cone = friction.coefficient * held.phi_n;
         const double shortest = 1e-12 * dt;
         while (true) {
             const auto [change, error] = rodas3(held, u, h, f, J);
-            const Vector2<double> end = u + change.template head<2>();
+            const Vector2<double> end = u + change.bristle;
             const double bristle_size = std::max(size, end.norm());
-            const double force_size =
-                std::max(f.segment<2>(force_at).norm(), change.template segment<2>(force_at).norm() / h);
+            const double force_size = std::max(f.force.norm(), change.force.norm() / h);
             // What damper and clutch take is measured by the work of the force: far beyond D_t/K_t the damper's
             // quadrature is worth nothing while bristle and force are right already.
             // At rest nothing does work: what the bristle can hold is the measure then.
             const double work =
                 force_size * held.V.norm() * dt + held.scale * friction.stiffness * bristle_size * bristle_size;
-            const double taken = std::max(std::abs(error[damper_at]), std::abs(error[clutch_at]));
-            const double wrong =
-                std::max({ratio(error.template head<2>().norm(), bristle_size),
-                          ratio(error.template segment<2>(force_at).norm(), force_size * dt), ratio(taken, work)}) /
-                tolerance_;
+            const double taken = std::max(std::abs(error.damper), std::abs(error.clutch));
+            const double wrong = std::max({ratio(error.bristle.norm(), bristle_size),
+                                           ratio(error.force.norm(), force_size * dt), ratio(taken, work)}) /
+                                 tolerance_;
             const double factor = 0.9 / std::cbrt(std::max(wrong, 1e-3));
             if (!(wrong <= 1) && h > shortest) {
                 h *= std::isfinite(wrong) ? std::clamp(factor, 0.1, 0.9) : 0.1;
@@ -195,25 +203,27 @@ private:
 
     /// The change of bristle and integrals over a step h, and the estimate of its error.
     [[nodiscard]] std::array<Rates, 2> rodas3(const Held& held, const Vector2<double>& u, double h, const Rates& f,
-                                              const Eigen::Matrix<double, 6, 2>& J) const noexcept {
+                                              const Jacobian& J) const noexcept {
         const double per_h = 1 / h, diagonal = 2 * per_h;  // gamma = 1/2
-        const Eigen::Matrix2d inverse = (diagonal * Eigen::Matrix2d::Identity() - J.template topRows<2>()).inverse();
+        // diagonal - J of the bristle: [[a, b], [c, d]]
+        const double a = diagonal - J[0].bristle[0], b = -J[1].bristle[0], c = -J[0].bristle[1],
+                     d = diagonal - J[1].bristle[1], per_determinant = 1 / (a * d - b * c);
         // The integrals follow from the bristle: their columns of the Jacobian are zero.
         const auto solve = [&](const Rates& right) {
-            Rates k;
-            k.template head<2>() = inverse * right.template head<2>();
-            k.template tail<4>() =
-                (right.template tail<4>() + J.template bottomRows<4>() * k.template head<2>()) / diagonal;
-            return k;
+            const Vector2<double>& r = right.bristle;
+            const Vector2<double> k{(d * r[0] - b * r[1]) * per_determinant, (a * r[1] - c * r[0]) * per_determinant};
+            Rates all = (1 / diagonal) * (right + k[0] * J[0] + k[1] * J[1]);
+            all.bristle = k;
+            return all;
         };
         const auto at = [&](const Rates& change) {
-            return rates<Friction, double>(friction_, held, u + change.template head<2>());
+            return rates<Friction, double>(friction_, held, u + change.bristle);
         };
         const Rates k1 = solve(f);
         const Rates k2 = solve(f + 4 * per_h * k1);
-        const Rates k3 = solve(at(2 * k1) + per_h * (k1 - k2));
-        const Rates k4 = solve(at(2 * k1 + k3) + per_h * (k1 - k2 - 8.0 / 3.0 * k3));
-        return {2 * k1 + k3 + k4, k4};
+        const Rates k3 = solve(at(2.0 * k1) + per_h * (k1 - k2));
+        const Rates k4 = solve(at(2.0 * k1 + k3) + per_h * (k1 - k2 - 8.0 / 3.0 * k3));
+        return {2.0 * k1 + k3 + k4, k4};
     }
 
     // D_t = C_V = 0 ---------------------------------------------------------------------------------------------------

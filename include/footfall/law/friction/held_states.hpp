@@ -72,9 +72,9 @@ private:
     }
     [[nodiscard]] Rates rates(Phase phase, const Vector2<double>& V, std::span<const double> x) const noexcept {
         Rates r;
-        const FrictionAnswer<double> t =
-            part().respond(phase, moving(V), one_newton, x, std::span(r.x).first(x.size()));
-        r.rest = {t.force.x(), t.force.y(), t.damper_power, t.clutch_power};
+        Response<double> t;
+        part().respond(phase, moving(V), one_newton, x, std::span(r.x).first(x.size()), t);
+        r.rest = {t.push.friction.x(), t.push.friction.y(), t.power[by_tangential_damper], t.power[by_clutch]};
         return r;
     }
 
