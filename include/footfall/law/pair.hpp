@@ -41,7 +41,7 @@ public:
     using S = typename Parts::S;
     using value_type = S;
     using States = typename Parts::States;
-    using Parts::normal, Parts::friction, Parts::normal_state_count;
+    using Parts::normal, Parts::friction, Parts::normal_state_count, Parts::normal_parts, Parts::normal_force;
 
     /// Guards: positive while the mode lasts.
     static constexpr int guards = 3;
@@ -89,14 +89,16 @@ public:
             const Load<S> load{scale, phi.total()};
             r.push.normal = load.force();                                        // (13)
             r.power[by_normal_damper] = scale * phi.dissipative * t.depth_rate;  // (16)
-            f = of_friction([&](const auto& part) __attribute__((always_inline)) {
-                return part.respond(mode.phase, t, load, friction_states(x), own);
-            });
+            if constexpr (!Parts::frictionless)
+                f = of_friction([&](const auto& part) __attribute__((always_inline)) {
+                    return part.respond(mode.phase, t, load, friction_states(x), own);
+                });
         } else {
             r.power[by_normal_damper] = -(scale * phi.elastic) * t.depth_rate;  // (14): it takes what the spring gives
             f = of_friction([&](const auto& part) { return part.idle(t, scale, friction_states(x), own); });
         }
         if (normal_state_count() > 0) r.power[by_normal_damper] += scale * phi.relaxation;
+        if constexpr (Parts::frictionless) return r;
         put(f, r);
         r.asks_for_load_rate = f.asks_for_load_rate;
         return r;
@@ -133,12 +135,6 @@ public:
         h.tangential_spring =
             of_friction([&](const auto& part) { return part.stored(mode.phase, load, friction_states(x)); });
         return h;
-    }
-
-    /// F_n, before the clamp [N].
-    [[nodiscard]] S normal_force(const Touch<S>& t, States x) const noexcept {
-        return of_normal(
-            [&](const auto& part) { return part.force(0, t.root_depth, t.depth_rate, normal_states(x)).total(); });
     }
 
     /// s^p, the scale that friction is computed over.
