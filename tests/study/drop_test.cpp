@@ -19,10 +19,9 @@ using study::Branch;
 using study::DropImpact;
 using study::FitDual;
 
-/// exp(-x acos(x)/sqrt(1-x^2) 2) of Schwager & Poeschel's linear law over any scalar, underdamped: e from the damping
-/// ratio x = d/(2 sqrt(k m)), by the phase of the oscillator at which the force ends.
+/// e of the closed form, with its derivatives with respect to damping, stiffness and mass by differences of fourth
+/// order.
 FitDual linear_restitution_slopes(double m, double k, double d) {
-    // Differences of the closed form, of fourth order, in d, k and m.
     const auto slope = [&](int which) {
         const auto at = [&](double by) {
             return linear_restitution(m * (which == 2 ? 1 + by : 1), k * (which == 1 ? 1 + by : 1),
@@ -51,7 +50,7 @@ TEST(Drop, UnderTheLinearLawHasTheRestitutionOfTheClosedFormWithItsDerivatives) 
 }
 
 TEST(Drop, EndsHoweverHeavyTheDamping) {
-    // e of the overdamped linear law tends to k m / d^2. The explicit method alone would need 1e6 steps.
+    // e of the overdamped linear law tends to k m / d^2.
     const double m = 0.154, k = 2.5e5, d = 1e6;
     const auto out = DropImpact<double>(LinearNormal<>{k, d}, m, 1).speed_out();
     ASSERT_TRUE(out.has_value());
