@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "footfall/law/contact_response.hpp"
@@ -83,8 +84,9 @@ public:
         const NormalForce<S> phi = normal_over_scale(t, x);
         if (normal_state_count() > 0) put_normal_rates(t, x, rates);
         Response<S> r;
-        FrictionAnswer<S> f;
-        const std::span<S> own = rates.subspan(count(normal_state_count()));
+        struct Nothing {};  // is spent on friction where the compiler knows that there is none
+        [[maybe_unused]] std::conditional_t<Parts::frictionless, Nothing, FrictionAnswer<S>> f;
+        [[maybe_unused]] const std::span<S> own = rates.subspan(count(normal_state_count()));
         if (mode.loaded()) {
             const Load<S> load{scale, phi.total()};
             r.push.normal = load.force();                                        // (13)
@@ -95,12 +97,14 @@ public:
                 });
         } else {
             r.power[by_normal_damper] = -(scale * phi.elastic) * t.depth_rate;  // (14): it takes what the spring gives
-            f = of_friction([&](const auto& part) { return part.idle(t, scale, friction_states(x), own); });
+            if constexpr (!Parts::frictionless)
+                f = of_friction([&](const auto& part) { return part.idle(t, scale, friction_states(x), own); });
         }
         if (normal_state_count() > 0) r.power[by_normal_damper] += scale * phi.relaxation;
-        if constexpr (Parts::frictionless) return r;
-        put(f, r);
-        r.asks_for_load_rate = f.asks_for_load_rate;
+        if constexpr (!Parts::frictionless) {
+            put(f, r);
+            r.asks_for_load_rate = f.asks_for_load_rate;
+        }
         return r;
     }
 

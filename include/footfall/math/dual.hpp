@@ -48,8 +48,8 @@ struct Dual {
         return x;
     }
 
-    constexpr Dual& operator+=(const Dual& b) noexcept { return *this = *this + b; }
-    constexpr Dual& operator-=(const Dual& b) noexcept { return *this = *this - b; }
+    [[gnu::always_inline]] constexpr Dual& operator+=(const Dual& b) noexcept { return *this = *this + b; }
+    [[gnu::always_inline]] constexpr Dual& operator-=(const Dual& b) noexcept { return *this = *this - b; }
     constexpr Dual& operator*=(const Dual& b) noexcept { return *this = *this * b; }
     constexpr Dual& operator/=(const Dual& b) noexcept { return *this = *this / b; }
 

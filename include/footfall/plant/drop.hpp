@@ -53,7 +53,8 @@ public:
         total.normal += p.normal;
     }
     /// d(zdot)/dt.
-    [[nodiscard]] S depth_acceleration(const Motion& /*m*/, const Action& total, int /*i*/) const noexcept {
+    [[nodiscard, gnu::always_inline]] S depth_acceleration(const Motion& /*m*/, const Action& total,
+                                                           int /*i*/) const noexcept {
         return -total.normal * inverse_mass_;
     }
     /// How a push changes it.
