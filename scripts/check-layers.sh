@@ -30,7 +30,7 @@ find include/footfall src \( -name '*.hpp' -o -name '*.cpp' -o -name '*.in' \) |
             else if (here != "" && rank[there] > rank[here]) fail(here "/ includes from " there "/, which is below it")
         }
     }
-    here ~ /^(solve|plant|simulate)$/ && match($0, kinds) {
+    here ~ /^(solve|plant|simulate|study)$/ && match($0, kinds) {
         fail("asks for a kind of law: " substr($0, RSTART, RLENGTH))
     }
     FNR == 501 { fail("is longer than 500 lines") }

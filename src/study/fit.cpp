@@ -4,32 +4,61 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "footfall/math/dual.hpp"
 #include "footfall/math/value_of.hpp"
-#include "study/impact_trace.hpp"
+#include "study/drop_impact.hpp"
 
 namespace footfall {
 namespace {
 
 using study::Branch;
-using study::ImpactTrace;
-using study::turning_point;
+using study::DropImpact;
+using Derivative = study::FitDual;
 
 /// How many derivatives one pass carries.
-constexpr int width = 4;
-using Derivative = Dual<double, width>;
+constexpr std::size_t width = std::tuple_size_v<decltype(Derivative::gradient)>;
+
+/// Where a function that is `true` at `low` and `false` at `high` turns, to rounding.
+template <class Predicate>
+double turning_point(double low, double high, const Predicate& holds) {
+    constexpr int most = 100;  // halvings
+    for (int i = 0; i < most; ++i) {
+        const double middle = (low + high) / 2;
+        if (!(middle > low && middle < high)) break;
+        (holds(middle) ? low : high) = middle;
+    }
+    return low;
+}
+
+/// A normal law alone, in the states that it has of an impact that began at a speed [m/s].
+template <class S>
+class BegunLaw {
+public:
+    BegunLaw(const NormalLawOver<S>& law, const S& speed) : law_(law, {}) {
+        law_.land({S(0), speed, Vector2<S>::Zero()}, std::span(states_));
+    }
+    /// At a depth [m], > 0, and its rate [m/s].
+    [[nodiscard]] NormalForce<S> force(const S& depth, const S& rate) const {
+        return law_.normal_parts({root_of_depth(depth), rate, Vector2<S>::Zero()}, states_);
+    }
+
+private:
+    Pair<NormalLawOver<S>, NoFriction<S>> law_;
+    std::array<S, most_normal_states> states_{};
+};
 
 // Laws with parameters over another scalar ---------------------------------------------------------------------------
 
 /// The law with the parameters of these keys replaced.
 template <class S>
-AnyNormal<S> substitute(const NormalLaw& law, const std::vector<FitLaw::Free>& free, const S* values) {
+NormalLawOver<S> substitute(const NormalLaw& law, const std::vector<FitLaw::Free>& free, const S* values) {
     return std::visit(
-        [&](const auto& base) -> AnyNormal<S> {
+        [&](const auto& base) -> NormalLawOver<S> {
             auto over = base.template cast<S>();
             const auto parameters = over.parameters();
             for (std::size_t i = 0; i < free.size(); ++i) {
@@ -109,7 +138,7 @@ public:
     /// The law's y for each x at the arguments `a`; NaN where it has none.
     template <class S>
     void evaluate(const S* a, std::span<S> y) const {
-        const AnyNormal<S> law = substitute<S>(law_.law, law_.free, a);
+        const NormalLawOver<S> law = substitute<S>(law_.law, law_.free, a);
         const bool followed = study_.data.kind == Measured::restitution ? restitutions(law, a, y)
                               : follows_one_impact()                    ? forces_of_impact(law, a, y)
                                                                         : forces_at_rates(law, y);
@@ -124,7 +153,7 @@ public:
     void jacobian(std::span<const double> x, std::span<double> r, std::span<double> J) const {
         std::vector<Derivative> a(x.size()), y(r.size());
         for (std::size_t first = 0; first < x.size(); first += width) {
-            const std::size_t count = std::min<std::size_t>(width, x.size() - first);
+            const std::size_t count = std::min(width, x.size() - first);
             for (std::size_t j = 0; j < x.size(); ++j) a[j] = x[j];
             for (std::size_t k = 0; k < count; ++k) {
                 a[first + k] = Derivative::variable(x[first + k], static_cast<int>(k));
@@ -147,10 +176,10 @@ public:
 private:
     /// Of an impact at each speed. False where one does not end.
     template <class S>
-    [[nodiscard]] bool restitutions(const AnyNormal<S>& law, const S* a, std::span<S> y) const {
+    [[nodiscard]] bool restitutions(const NormalLawOver<S>& law, const S* a, std::span<S> y) const {
         const std::vector<double>& speed = study_.data.x;
         for (std::size_t i = 0; i < y.size(); ++i) {
-            const auto out = ImpactTrace<S>(law, a[arguments_.mass], S(speed[i])).speed_out();
+            const auto out = DropImpact<S>(law, a[arguments_.mass], S(speed[i])).speed_out();
             if (!out) return false;
             y[i] = *out / S(speed[i]);
         }
@@ -159,14 +188,14 @@ private:
 
     /// At each depth, with the rate that was measured there. Always true.
     template <class S>
-    [[nodiscard]] bool forces_at_rates(AnyNormal<S> law, std::span<S> y) const {
+    [[nodiscard]] bool forces_at_rates(const NormalLawOver<S>& law, std::span<S> y) const {
         const FitData& data = study_.data;
-        law.begin_impact(S(entry_speed()));
+        const BegunLaw<S> begun(law, S(entry_speed()));
         for (std::size_t i = 0; i < y.size(); ++i) {
             y[i] = S(0);
             if (!(data.x[i] > 0)) continue;
             const double rate = data.rate.empty() ? 0 : data.rate[i];
-            const S force = law.template force<0>(S(std::sqrt(data.x[i])), S(rate)).total();
+            const S force = begun.force(S(data.x[i]), S(rate)).total();
             if (force > S(0)) y[i] = force;
         }
         return true;
@@ -174,9 +203,9 @@ private:
 
     /// Along one impact, at each time or depth. False where that cannot be followed.
     template <class S>
-    [[nodiscard]] bool forces_of_impact(const AnyNormal<S>& law, const S* a, std::span<S> y) const {
+    [[nodiscard]] bool forces_of_impact(const NormalLawOver<S>& law, const S* a, std::span<S> y) const {
         const FitData& data = study_.data;
-        const ImpactTrace<S> impact(law, a[arguments_.mass], a[arguments_.speed]);
+        const DropImpact<S> impact(law, a[arguments_.mass], a[arguments_.speed]);
         if (data.kind == Measured::force_indentation) return impact.force_at_depths(data.x, branches_, y);
         const bool fitted = arguments_.touchdown != Arguments::none;
         const S begin = fitted ? a[arguments_.touchdown] : S(study_.touchdown.value.value_or(0));
@@ -241,11 +270,9 @@ double start_of(const NormalLaw& law, std::string_view key, const FitStudy& stud
         const auto small = [&](double log_value) {
             Law trial = base;
             trial.*parameter.member = std::exp(log_value);
-            AnyNormal<double> any(trial);
-            any.begin_impact(scales.speed);
-            const double s = std::sqrt(scales.depth);
-            const auto half = any.force<0>(std::sqrt(scales.depth / 2), scales.speed / 2);
-            return spring ? any.force<0>(s, 0).total() < scales.force : half.dissipative < 0.2 * half.elastic;
+            const BegunLaw<double> begun(trial, scales.speed);
+            const auto half = begun.force(scales.depth / 2, scales.speed / 2);
+            return spring ? begun.force(scales.depth, 0).total() < scales.force : half.dissipative < 0.2 * half.elastic;
         };
         const double low = std::log(1e-15), high = std::log(1e18);
         const bool scaled = std::isfinite(scales.depth) && scales.depth > 0 && (spring || std::isfinite(scales.speed));

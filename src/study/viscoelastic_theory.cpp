@@ -115,16 +115,7 @@ std::vector<RestitutionTheory> theories_of(const NormalLaw& law, double mass) {
     };
     std::visit(
         [&]<class Law>(const Law& l) {
-            // The law of an impact that begins at a speed, as the law that computes its force.
-            const auto at_speed = [l](double speed) {
-                Law begun = l;
-                if constexpr (requires { begun.begin_impact(speed); }) begun.begin_impact(speed);
-                if constexpr (requires { begun.restated(); }) {
-                    return begun.restated();
-                } else {
-                    return begun;
-                }
-            };
+            const auto at_speed = [l](double speed) { return law_of_impact(l, speed); };
             using Computed = decltype(at_speed(1.0));
             if constexpr (std::is_same_v<Computed, AzadFeatherstoneNormal<>>) {
                 viscoelastic(at_speed(1.0));

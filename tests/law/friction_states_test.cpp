@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "footfall/law/any_rate_friction.hpp"
 #include "footfall/law/contact_law.hpp"
 #include "footfall/math/dual.hpp"
+#include "law/any_rate_friction.hpp"
 #include "law/laws.hpp"
 #include "law/turn.hpp"
 #include "math/property.hpp"

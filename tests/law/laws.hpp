@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "footfall/law/any_normal.hpp"
 #include "footfall/law/contact_law.hpp"
 #include "footfall/law/registry.hpp"
 #include "math/random_real.hpp"

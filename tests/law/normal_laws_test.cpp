@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "footfall/law/any_normal.hpp"
 #include "footfall/law/registry.hpp"
 #include "footfall/math/dual.hpp"
 #include "law/laws.hpp"
@@ -229,12 +228,14 @@ struct Counted : Dual<double, 1> {
 };
 
 TEST(TsujiNormal, ItsDampingIsComputedOnceHoweverOftenItIsCast) {
-    const AnyNormal<Counted> law(TsujiNormal<Counted>{Counted(2e6), Counted(0.2), Counted(0.6)});
+    const Pair<NormalLawOver<Counted>, NoFriction<Counted>> law(
+        TsujiNormal<Counted>{Counted(2e6), Counted(0.2), Counted(0.6)}, {});
+    const Touch<Counted> touch{Counted(0.01), Counted(0.5), Vector2<Counted>::Zero()};
     EXPECT_EQ(Counted::logarithms, 1);
     for (int use = 0; use < 5; ++use) {
         const auto cast = law.cast<Counted>();
-        EXPECT_GT(cast.force(Counted(0.01), Counted(0.5)).dissipative.value, 0);
-        EXPECT_GT(law.load(Counted(0.01), Counted(0.5)).value, 0);
+        EXPECT_GT(cast.normal_parts(touch, {}).dissipative.value, 0);
+        EXPECT_GT(law.load_at(touch, {}).over_scale.value, 0);
     }
     EXPECT_EQ(Counted::logarithms, 1);
 }
@@ -242,9 +243,10 @@ TEST(TsujiNormal, ItsDampingIsComputedOnceHoweverOftenItIsCast) {
 TEST(TsujiNormal, ItsPreparedForceHasTheSlopesOfDifferencesInItsParameters) {
     using D = Dual<double, 3>;
     const D k = D::variable(2e6, 0), m = D::variable(0.2, 1), e = D::variable(0.6, 2);
-    const AnyNormal<D> law(TsujiNormal<D>{k, m, e});
+    const Pair<NormalLawOver<D>, NoFriction<D>> law(TsujiNormal<D>{k, m, e}, {});
     // Over duals of duals, as a Jacobian inside of a derivative is: the slopes are carried along.
-    const D force = law.cast<Dual<D, 1>>().force(Dual<D, 1>(D(0.01)), Dual<D, 1>(D(0.5))).dissipative.value;
+    const Touch<Dual<D, 1>> touch{D(0.01), D(0.5), Vector2<Dual<D, 1>>::Zero()};
+    const D force = law.cast<Dual<D, 1>>().normal_parts(touch, {}).dissipative.value;
     const auto slope = [&](int parameter) {
         return static_cast<double>(difference(
             [&](long double x) {

@@ -1,9 +1,11 @@
 // What every normal law owes the ledger, and what each is known to give.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include <gtest/gtest.h>
 
-#include "footfall/law/any_normal.hpp"
 #include "footfall/law/registry.hpp"
 #include "footfall/math/dual.hpp"
 #include "law/laws.hpp"
@@ -69,24 +71,43 @@ TYPED_TEST(NormalLawTest, ElasticPartDoesNotSeeTheRate) {
     });
 }
 
-TYPED_TEST(NormalLawTest, AnyNormalIsTheLawItHolds) {
+TYPED_TEST(NormalLawTest, AnErasedPairIsTheLawItHolds) {
     check_property([] {
         auto law = random_law<TypeParam>();
-        AnyNormal<> any(law);
+        const Pair<NormalLaw, NoFriction<>> any(law, {});
         const ContactState at;
+        const Touch<double> touch{at.s(), at.rate, Vector2<double>::Zero()};
         // An impact that begins is told to the law inside.
         const double speed = *decades(1e-2, 1e1);
-        any.begin_impact(speed);
+        std::array<double, most_normal_states> states{};
+        any.land({0, speed, Vector2<double>::Zero()}, std::span(states));
         if constexpr (requires { law.begin_impact(speed); }) law.begin_impact(speed);
-        RC_ASSERT(any.force(at.s(), at.rate).elastic == law.force(at.s(), at.rate).elastic);
-        RC_ASSERT(any.force(at.s(), at.rate).dissipative == law.force(at.s(), at.rate).dissipative);
-        RC_ASSERT(any.load(at.s(), at.rate) == law.load(at.s(), at.rate));
-        RC_ASSERT(any.stored_energy(at.s()) == law.stored_energy(at.s()));
-        // It is still told where the law is cast in between.
+        RC_ASSERT(any.normal_parts(touch, states).elastic == law.force(at.s(), at.rate).elastic);
+        RC_ASSERT(any.normal_parts(touch, states).dissipative == law.force(at.s(), at.rate).dissipative);
+        RC_ASSERT(any.held({Phase::slip}, touch, states).normal_spring == law.stored_energy(at.s()));
+        std::array<double, 3> guards{};
+        any.fill_guards({Phase::slip}, touch, states, 0.0, guards);
+        RC_ASSERT(guards[0] == law.load(at.s(), at.rate));
+        // The law inside a pair that is cast is the law cast.
         const auto cast = any.template cast<long double>();
-        RC_ASSERT(near(static_cast<double>(cast.force(at.s(), at.rate).dissipative),
+        std::array<long double, most_normal_states> long_states{};
+        std::copy(states.begin(), states.end(), long_states.begin());
+        const Touch<long double> long_touch{at.s(), at.rate, Vector2<long double>::Zero()};
+        RC_ASSERT(near(static_cast<double>(cast.normal_parts(long_touch, long_states).dissipative),
                        law.force(at.s(), at.rate).dissipative,
                        1e-13 * std::abs(law.force(at.s(), at.rate).dissipative)));
+    });
+}
+
+TYPED_TEST(NormalLawTest, TheLawOfAnImpactComputesItsForce) {
+    check_property([] {
+        auto law = random_law<TypeParam>();
+        const ContactState at;
+        const double speed = *decades(1e-2, 1e1);
+        const auto computed = law_of_impact(law, speed);
+        if constexpr (requires { law.begin_impact(speed); }) law.begin_impact(speed);
+        RC_ASSERT(computed.force(at.s(), at.rate).elastic == law.force(at.s(), at.rate).elastic);
+        RC_ASSERT(computed.force(at.s(), at.rate).dissipative == law.force(at.s(), at.rate).dissipative);
     });
 }
 

@@ -10,7 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include "footfall/law/any_rate_friction.hpp"
 #include "simulate/scenes.hpp"
 
 namespace footfall {

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "footfall/law/contact_response.hpp"
@@ -41,7 +42,7 @@ public:
     using S = typename Parts::S;
     using value_type = S;
     using States = typename Parts::States;
-    using Parts::normal, Parts::friction, Parts::normal_state_count;
+    using Parts::normal, Parts::friction, Parts::normal_state_count, Parts::normal_parts, Parts::normal_force;
 
     /// Guards: positive while the mode lasts.
     static constexpr int guards = 3;
@@ -126,12 +127,6 @@ public:
         h.tangential_spring =
             of_friction([&](const auto& part) { return part.stored(mode.phase, load, friction_states(x)); });
         return h;
-    }
-
-    /// F_n, before the clamp [N].
-    [[nodiscard]] S normal_force(const Touch<S>& t, States x) const noexcept {
-        return of_normal(
-            [&](const auto& part) { return part.force(0, t.root_depth, t.depth_rate, normal_states(x)).total(); });
     }
 
     /// s^p, the scale that friction is computed over.

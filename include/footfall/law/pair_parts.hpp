@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "footfall/law/erased.hpp"
 #include "footfall/law/friction/friction_part.hpp"
 #include "footfall/law/normal/normal_part.hpp"
+#include "footfall/law/touch.hpp"
 #include "footfall/math/value_of.hpp"
 
 namespace footfall {
@@ -69,6 +71,12 @@ public:
         return most;
     }();
 
+    /// F_n, before the clamp [N], and its two parts.
+    [[nodiscard]] S normal_force(const Touch<S>& t, States x) const noexcept { return normal_parts(t, x).total(); }
+    [[nodiscard]] NormalForce<S> normal_parts(const Touch<S>& t, States x) const noexcept {
+        return of_normal([&](const auto& part) { return part.force(0, t.root_depth, t.depth_rate, normal_states(x)); });
+    }
+
     /// The root depth s > 0 at which the spring carries a force [N], > 0, or holds an energy [J], > 0; to a few digits.
     [[nodiscard]] double root_depth_under(double force) const {
         return reaches([&](double s) { return static_cast<double>(value_of(elastic_force(S(s)))); }, force);
@@ -84,6 +92,9 @@ public:
     }
 
 protected:
+    /// Whether the compiler knows that there is no friction.
+    static constexpr bool frictionless = std::is_same_v<Friction, NoFriction<S>>;
+
     static constexpr std::size_t count(int n) noexcept { return static_cast<std::size_t>(n); }
 
     template <class Visit>

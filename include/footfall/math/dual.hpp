@@ -21,8 +21,10 @@ template <class T, int N>
 struct Dual {
     static_assert(N >= 1);
 
-    T value{};                    ///< the number itself
+    // The gradient comes first, so that a copy moves it in the pairs in which the arithmetic has just written it: a
+    // processor waits where it reads across two writes.
     std::array<T, N> gradient{};  ///< its derivative with respect to each input
+    T value{};                    ///< the number itself
 
     constexpr Dual() noexcept = default;
     /// A constant: all derivatives are zero.
@@ -31,7 +33,11 @@ struct Dual {
     template <class A>
         requires(std::is_arithmetic_v<A> && !std::same_as<A, T>)
     constexpr Dual(A constant) noexcept : value(static_cast<T>(constant)) {}
-    constexpr Dual(const T& v, const std::array<T, N>& g) noexcept : value(v), gradient(g) {}
+    constexpr Dual(const T& v, const std::array<T, N>& g) noexcept : gradient(g), value(v) {}
+    /// The number alone of one that carries other derivatives, as a constant.
+    template <int M>
+        requires(M != N)
+    explicit constexpr Dual(const Dual<T, M>& other) noexcept : value(other.value) {}
 
     /// The `index`-th input itself, 0 <= index < N: derivative 1 with respect to itself, 0 to the others.
     [[nodiscard]] static constexpr Dual variable(const T& v, int index) noexcept {
@@ -40,8 +46,8 @@ struct Dual {
         return x;
     }
 
-    constexpr Dual& operator+=(const Dual& b) noexcept { return *this = *this + b; }
-    constexpr Dual& operator-=(const Dual& b) noexcept { return *this = *this - b; }
+    [[gnu::always_inline]] constexpr Dual& operator+=(const Dual& b) noexcept { return *this = *this + b; }
+    [[gnu::always_inline]] constexpr Dual& operator-=(const Dual& b) noexcept { return *this = *this - b; }
     constexpr Dual& operator*=(const Dual& b) noexcept { return *this = *this * b; }
     constexpr Dual& operator/=(const Dual& b) noexcept { return *this = *this / b; }
 

@@ -39,9 +39,13 @@ public:
     static constexpr int contacts_at_compile_time = Plant::contacts_at_compile_time;
     static constexpr bool fixed = contacts_at_compile_time != Eigen::Dynamic && States != Eigen::Dynamic;
     static constexpr int motion_at_compile_time = fixed ? Plant::motion_at_compile_time + States : Eigen::Dynamic;
+    /// Of what each contact has taken: all, or none where the plant says that it keeps no account.
+    static constexpr int kept_channels = [] {
+        if constexpr (requires { requires !Plant::keeps_account; }) return 0;
+        return static_cast<int>(taken_channels);
+    }();
     static constexpr int size_at_compile_time =
-        fixed ? motion_at_compile_time + Plant::follows + 1 + taken_channels * contacts_at_compile_time
-              : Eigen::Dynamic;
+        fixed ? motion_at_compile_time + Plant::follows + 1 + kept_channels * contacts_at_compile_time : Eigen::Dynamic;
     static constexpr int guards_per_contact = Law::guards;
     static constexpr int guards_at_compile_time =
         fixed ? guards_per_contact * contacts_at_compile_time : Eigen::Dynamic;
@@ -87,7 +91,7 @@ public:
     [[nodiscard]] constexpr int follow() const noexcept { return motion_size(); }
     [[nodiscard]] constexpr int clock() const noexcept { return follow() + Plant::follows; }
     /// Where what contact i has taken begins.
-    [[nodiscard]] constexpr int taken(int i) const noexcept { return clock() + 1 + taken_channels * i; }
+    [[nodiscard]] constexpr int taken(int i) const noexcept { return clock() + 1 + kept_channels * i; }
     [[nodiscard]] constexpr int size() const noexcept { return taken(contacts()); }
 
     /// The states of the law of contact i, and where they begin.
@@ -104,7 +108,7 @@ public:
         return {y.data() + first_state(i), state_count(i)};
     }
     void book(State& y, int i, const Taken<S>& energy) const noexcept {
-        for (int k = 0; k < taken_channels; ++k) y[taken(i) + k] += energy[index(k)];
+        for (int k = 0; k < kept_channels; ++k) y[taken(i) + k] += energy[index(k)];
     }
 
     // ---- the equations
@@ -349,11 +353,11 @@ private:
         if (!touches(i)) {
             // s stays 0. What the states do in flight is known in closed form (relax).
             plant_.root_depth_rate(y, i, S(0), g, true, rate);
-            unrolled<taken_channels>([&](int k) { rate[taken(i) + k] = S(0); });
+            unrolled<kept_channels>([&](int k) { rate[taken(i) + k] = S(0); });
             return;
         }
         plant_.root_depth_rate(y, i, c.touch.depth_rate, g, contacts_at_compile_time == 1 && !mode(i).drags, rate);
-        unrolled<taken_channels>([&](int k) { rate[taken(i) + k] = c.response.power[index(k)] * g; });
+        unrolled<kept_channels>([&](int k) { rate[taken(i) + k] = c.response.power[index(k)] * g; });
     }
 
     template <class Contacts>

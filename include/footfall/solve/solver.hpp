@@ -32,6 +32,7 @@ struct GoesOn {
     Value step = Value(0);     ///< the size of the next step; 0: as long as it was
     Value stretch = Value(1);  ///< times this
     bool calm = false;         ///< nothing is stiff from here on
+    bool done = false;         ///< the work ends here, whatever the clock shows
 };
 
 /// What a Solver asks of the system that it follows (a PlainSystem answers most of it):
@@ -87,7 +88,7 @@ public:
     /// Takes every step by the implicit method: for measuring it where nothing is stiff. Before `run`.
     void stay_implicit() { method_.stay_implicit(); }
 
-    /// From y, in the modes that the system is in, until the clock shows `end`.
+    /// From y, in the modes that the system is in, until the clock shows `end`, or a jump says that the work is done.
     void run(State y, const Value& end) {
         y_ = std::move(y);
         end_ = end;
@@ -97,10 +98,11 @@ public:
         stalls_.assign(index(guard_count() / System::guards_per_group), Stall{});
         silent_until_.assign(index(guard_count()), -std::numeric_limits<Value>::infinity());
         scratch_ = y_;
+        done_ = false;
         system_.start(y_, armed_);
         step_ = system_.first_step();
         begin_phase();
-        while (now() < end_)
+        while (!done_ && now() < end_)
             if (!handle_broken_guards()) advance();
     }
 
@@ -384,6 +386,7 @@ private:
         if (next.step > Value(0)) step_ = next.step;
         step_ *= next.stretch;
         if (next.calm) method_.return_to_explicit();
+        done_ = next.done;
     }
 
     // Where the modes of a group change without time going on, it is left as it is and not looked at for a moment; then
@@ -423,9 +426,10 @@ private:
         ready_interpolant();
         return method_.at(theta);
     }
-    [[nodiscard]] Value clock_at(const Value& theta) {
+    [[nodiscard]] Value clock_at(const Value& theta) { return value_at(theta, system_.clock()); }
+    [[nodiscard]] Value value_at(const Value& theta, int component) {
         ready_interpolant();
-        return value_of(method_.at(theta, system_.clock()));
+        return value_of(method_.at(theta, component));
     }
     void ready_interpolant() {
         if (!interpolant_ready_) method_.prepare_dense();
@@ -443,6 +447,9 @@ private:
         [[nodiscard]] Value size() const override { return solver_.method_.size(); }
         [[nodiscard]] Value piece() const override { return solver_.piece_of_step(); }
         [[nodiscard]] State at(const Value& share) const override { return solver_.interpolated(share); }
+        [[nodiscard]] Value value_at(const Value& share, int component) const override {
+            return solver_.value_at(share, component);
+        }
         [[nodiscard]] Value share_at(const Value& time) const override {
             const Value from = solver_.from_, to = solver_.to_;
             if (solver_.system_.uniform()) return (time - from) / (to - from);
@@ -484,6 +491,7 @@ private:
     StepView step_view_;
     Value step_{0}, from_{0}, to_{0};  // the next step; the clock at the ends of the last
     bool interpolant_ready_ = false;
+    bool done_ = false;
 };
 
 }  // namespace footfall

@@ -33,6 +33,8 @@ public:
     [[nodiscard]] virtual Value piece() const = 0;
     /// The state at a share of the step, 0 to 1.
     [[nodiscard]] virtual State at(const Value& share) const = 0;
+    /// The number that one component has there.
+    [[nodiscard]] virtual Value value_at(const Value& share, int component) const = 0;
     /// The share of the step at which the clock shows a time within it.
     [[nodiscard]] virtual Value share_at(const Value& time) const = 0;
     /// The clock at the step's ends.

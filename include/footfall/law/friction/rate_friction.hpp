@@ -80,7 +80,7 @@ concept JumpingRateFriction =
         { law.state_size(0) } -> std::same_as<double>;
     };
 
-/// A friction law with internal states. `AnyRateFriction` gives all of them one face.
+/// A friction law with internal states. `FrictionPart` (friction_part.hpp) gives it the face that all share.
 template <class F>
 concept RateFriction = SmoothRateFriction<F> || JumpingRateFriction<F>;
 

@@ -2,6 +2,8 @@
 // the force, where its sign changes and the energy are computed there, and not a second time.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 
 #include "footfall/law/normal/normal_force.hpp"
@@ -45,5 +47,23 @@ struct RestatedNormal : Parameters {
         return this->restated(x).stored_energy(s);
     }
 };
+
+/// The law that computes the force of an impact that begins at `speed` [m/s]: the law itself, or the one that it
+/// restates.
+template <class Law, class S = typename Law::value_type>
+[[nodiscard]] constexpr auto law_of_impact(const Law& law, [[maybe_unused]] const S& speed) noexcept {
+    if constexpr (requires(Law begun) {
+                      begun.land(speed, std::span<S>());
+                      law.restated(std::span<const S>());
+                  }) {
+        std::array<S, static_cast<std::size_t>(Law::states)> states{};
+        law.land(speed, std::span<S>(states));
+        return law.restated(std::span<const S>(states));
+    } else if constexpr (requires { law.restated(); }) {
+        return law.restated();
+    } else {
+        return law;
+    }
+}
 
 }  // namespace footfall
