@@ -99,6 +99,10 @@ struct FrictionPart<NoFriction<S>> {
     [[nodiscard]] static S enter_slip(const Touch<S>&, const Load<S>&, std::span<S>) noexcept { return S(0); }
     [[nodiscard]] static S release(const S&, std::span<S>) noexcept { return S(0); }
     [[nodiscard]] static S stiffen(const S&, States) noexcept { return S(0); }
+    /// The depth is zero: writes the states of a sphere in flight.
+    static void part(std::span<S>) noexcept {}
+    /// Writes the states after dt in which the depth alone has changed, as its rate says.
+    static void deepen(const Touch<S>&, const S&, std::span<S>) noexcept {}
 };
 
 template <class Law>
@@ -148,7 +152,11 @@ struct FrictionPart<Law> {
                                          std::span<S> rates) const noexcept {
         const Vector2<S> u = bristle(x);
         const Vector2<S> u_rate = (law.damping > S(0) ? S(-law.recovery_rate()) : S(0)) * u;
-        put_vector(rates, 0, u_rate);
+        if constexpr (Law::joins_unstrained) {
+            put_vector(rates, 0, Vector2<S>(u_rate + joining_rate(t, u)));
+        } else {
+            put_vector(rates, 0, u_rate);
+        }
         FrictionAnswer<S> a;
         a.damper_power = scale * law.damping * u_rate.squaredNorm();  // (28)
         a.unpaid_power = -law.stiffening_power(t.root_depth, t.depth_rate, u);
@@ -172,7 +180,13 @@ struct FrictionPart<Law> {
 
     /// Stick or slip, by the force that V makes in dt. (26)
     [[nodiscard]] Phase first(const Touch<S>& t, const Load<S>& load, States x, const S& dt) const noexcept {
-        return law.holds(load.over_scale, t.slip, Vector2<S>(bristle(x) + t.slip * dt)) ? Phase::stick : Phase::slip;
+        Vector2<S> u = bristle(x);
+        if constexpr (Law::joins_unstrained) {
+            u = law.stretched(u, t.slip, dt);
+        } else {
+            u = u + t.slip * dt;
+        }
+        return law.holds(load.over_scale, t.slip, u) ? Phase::stick : Phase::slip;
     }
     [[nodiscard]] static Phase begin() noexcept { return Phase::slip; }
     /// The forces say it. (26)
@@ -197,8 +211,10 @@ struct FrictionPart<Law> {
 
     [[nodiscard]] S margin(Phase phase, const Touch<S>& t, const Load<S>& load, const S& load_rate,
                            States x) const noexcept {
-        return phase == Phase::stick ? law.cone_margin(load.over_scale, t.slip, bristle(x))
-                                     : law.slip_margin(load.scale, load.over_scale, load_rate, t.slip, bristle(x));
+        const Vector2<S> u = bristle(x);
+        return phase == Phase::stick
+                   ? law.cone_margin(load.over_scale, t.slip, u)
+                   : law.slip_margin(load.scale, load.over_scale, load_rate, stretching_velocity(t, u), u);
     }
 
     [[nodiscard]] FrictionChange<S> cross(Phase phase, const Touch<S>& t, const Load<S>& load,
@@ -230,15 +246,47 @@ struct FrictionPart<Law> {
     [[nodiscard]] S stiffen(const S& s, States x) const noexcept {
         return scale_power > 0 ? law.stored_energy(law.scale(s), bristle(x)) : S(0);
     }
+    /// With no depth there is no ground that could keep a stretch for the next contact.
+    static void part([[maybe_unused]] std::span<S> x) noexcept {
+        if constexpr (Law::joins_unstrained) put_vector(x, 0, Vector2<S>(Vector2<S>::Zero()));
+    }
+    void deepen([[maybe_unused]] const Touch<S>& t, [[maybe_unused]] const S& dt,
+                [[maybe_unused]] std::span<S> x) const noexcept {
+        if constexpr (Law::joins_unstrained) put_vector(x, 0, law.joined(t.root_depth, t.depth_rate, dt, bristle(x)));
+    }
 
 private:
+    /// What the growing patch does to the bristle [m/s].
+    [[nodiscard, gnu::always_inline]] Vector2<S> joining_rate([[maybe_unused]] const Touch<S>& t,
+                                                              [[maybe_unused]] const Vector2<S>& u) const noexcept {
+        if constexpr (Law::joins_unstrained) {
+            return law.joining_rate(t.root_depth, t.depth_rate, u);
+        } else {
+            return Vector2<S>::Zero();
+        }
+    }
+    /// What a bristle that slips is stretched by, less its clutch: one that nothing damps stays on its cone, so what
+    /// the growing patch slackens its clutch does not have to.
+    [[nodiscard, gnu::always_inline]] Vector2<S> stretching_velocity(
+        const Touch<S>& t, [[maybe_unused]] const Vector2<S>& u) const noexcept {
+        if constexpr (Law::joins_unstrained) {
+            if (law.plastic()) return t.slip + joining_rate(t, u);
+        }
+        return t.slip;
+    }
     [[nodiscard, gnu::always_inline]] FrictionAnswer<S> respond(Phase phase, const Touch<S>& t, const Load<S>& load,
                                                                 const S& load_rate, States x,
                                                                 std::span<S> rates) const noexcept {
         const Vector2<S> u = bristle(x);
-        const auto r =
-            phase == Phase::stick ? law.stick(t.slip, u) : law.slip(load.scale, load.over_scale, load_rate, t.slip, u);
-        put_vector(rates, 0, r.bristle_rate);
+        const bool stick = phase == Phase::stick;
+        const auto r = stick ? law.stick(t.slip, u)
+                             : law.slip(load.scale, load.over_scale, load_rate, stretching_velocity(t, u), u);
+        if constexpr (Law::joins_unstrained) {
+            const bool is_whole = !stick && law.plastic();  // by the velocity that was put in
+            put_vector(rates, 0, is_whole ? r.bristle_rate : Vector2<S>(r.bristle_rate + joining_rate(t, u)));
+        } else {
+            put_vector(rates, 0, r.bristle_rate);
+        }
         FrictionAnswer<S> a;
         a.force = load.scale * r.force;
         a.damper_power = load.scale * law.damping * r.bristle_rate.squaredNorm();  // (28)
@@ -383,6 +431,8 @@ struct FrictionPart<Law> {
         return S(0);
     }
     [[nodiscard]] static S stiffen(const S&, States) noexcept { return S(0); }
+    static void part(std::span<S>) noexcept {}
+    static void deepen(const Touch<S>&, const S&, std::span<S>) noexcept {}
 
 private:
     /// w [m].
