@@ -53,7 +53,8 @@ PassiveImpact<Real> passive_impact(const Ball<Real>& ball, Real speed, Real slip
         if (phase == Phase::stick) F = at.phi;
         if (phase == Phase::slip) {
             const Real size = at.phi < 0 ? Real(-at.phi) : at.phi;
-            const Real all = (ball.D_t * s * ball.mu * at.f_n + ball.C_V * size) / (ball.D_t * s + ball.C_V);
+            Real all = ball.mu * at.f_n;
+            if (ball.C_V > 0) all = (ball.D_t * s * all + ball.C_V * size) / (ball.D_t * s + ball.C_V);
             F = at.phi < 0 ? Real(-all) : all;
         }
         const Real udot_0 = -(F + ball.K_t * at.u) / ball.D_t;

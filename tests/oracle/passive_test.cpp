@@ -36,12 +36,12 @@ protected:
 
 constexpr long double fine = 2e-6L;
 
-TEST_P(PassiveHit, IsKnownToFourteenDigits) {
+TEST_P(PassiveHit, IsKnownToTenDigits) {
     const auto once = reference(2 * fine), again = reference(fine);
     ASSERT_EQ(once.events.size(), again.events.size());
-    EXPECT_NEAR(static_cast<double>(once.slip_velocity / again.slip_velocity), 1, 1e-13);
-    EXPECT_NEAR(static_cast<double>(once.clutch / again.clutch), 1, 1e-13);
-    EXPECT_NEAR(static_cast<double>(once.stiffness_change / again.stiffness_change), 1, 1e-13);
+    EXPECT_NEAR(static_cast<double>(once.slip_velocity / again.slip_velocity), 1, 1e-10);
+    EXPECT_NEAR(static_cast<double>(once.clutch / again.clutch), 1, 1e-10);
+    EXPECT_NEAR(static_cast<double>(once.stiffness_change / again.stiffness_change), 1, 1e-10);
 }
 
 TEST_P(PassiveHit, IsTheLibrarys) {
