@@ -278,15 +278,29 @@ private:
                                                                 const S& load_rate, States x,
                                                                 std::span<S> rates) const noexcept {
         const Vector2<S> u = bristle(x);
+        if constexpr (Law::joins_unstrained) {
+            return respond_joining(phase, t, load, load_rate, u, rates);
+        } else {
+            const auto r = phase == Phase::stick ? law.stick(t.slip, u)
+                                                 : law.slip(load.scale, load.over_scale, load_rate, t.slip, u);
+            put_vector(rates, 0, r.bristle_rate);
+            return answer(r, phase, t, load, u);
+        }
+    }
+    /// Out of line: what every law computes stays as short as it is.
+    [[nodiscard, gnu::noinline]] FrictionAnswer<S> respond_joining(Phase phase, const Touch<S>& t, const Load<S>& load,
+                                                                   const S& load_rate, const Vector2<S>& u,
+                                                                   std::span<S> rates) const noexcept {
         const bool stick = phase == Phase::stick;
         const auto r = stick ? law.stick(t.slip, u)
                              : law.slip(load.scale, load.over_scale, load_rate, stretching_velocity(t, u), u);
-        if constexpr (Law::joins_unstrained) {
-            const bool is_whole = !stick && law.plastic();  // by the velocity that was put in
-            put_vector(rates, 0, is_whole ? r.bristle_rate : Vector2<S>(r.bristle_rate + joining_rate(t, u)));
-        } else {
-            put_vector(rates, 0, r.bristle_rate);
-        }
+        const bool is_whole = !stick && law.plastic();  // by the velocity that was put in
+        put_vector(rates, 0, is_whole ? r.bristle_rate : Vector2<S>(r.bristle_rate + joining_rate(t, u)));
+        return answer(r, phase, t, load, u);
+    }
+    [[nodiscard, gnu::always_inline]] FrictionAnswer<S> answer(const FrictionResponse<S>& r, Phase phase,
+                                                               const Touch<S>& t, const Load<S>& load,
+                                                               const Vector2<S>& u) const noexcept {
         FrictionAnswer<S> a;
         a.force = load.scale * r.force;
         a.damper_power = load.scale * law.damping * r.bristle_rate.squaredNorm();  // (28)
