@@ -356,6 +356,9 @@ inline std::string verdict(const Run& run, const Simulation& simulation) {
     if (run.max_residual > 1e-8) return fmt::format("residual {:.2e} is above 1e-8", run.max_residual);
     // A channel is integrated to the tolerance, so it may waver by that much where it stands still.
     const double slack = 10 * simulation.options.tolerance * run.energy_scale;
+    // What the changing stiffness takes follows |zdot|. Inside an implicit step at rest the interpolant's zdot is known
+    // to some tolerances only, where a stiff bristle makes much of it; at the step's ends it is right.
+    const double interpolated_slack = 100 * slack;
     for (std::size_t k = 0; k < run.samples.size(); ++k) {
         if (!finite(run.samples[k])) return fmt::format("sample {} is not finite", k);
         if (k == 0) continue;
@@ -368,7 +371,7 @@ inline std::string verdict(const Run& run, const Simulation& simulation) {
             if (clutch_only_takes(simulation.contacts[i].friction) && b.clutch < a.clutch - slack)
                 return fmt::format("clutch of sphere {} gives back", i);
             if (std::holds_alternative<AzadFeatherstonePassiveFriction<>>(simulation.contacts[i].friction) &&
-                b.stiffness_change < a.stiffness_change - slack)
+                b.stiffness_change < a.stiffness_change - interpolated_slack)
                 return fmt::format("changing stiffness of sphere {} makes energy", i);
         }
     }
