@@ -55,7 +55,7 @@ struct Case {
             if (law.friction.plastic() && F_n > 0 && slips()) {
                 at.u = on_cone(F_n);
                 if (at.u.dot(at.V) < 0) at.V = -at.V;
-                while (!(at.u.dot(at.V + joining()) > 0)) at.V *= 2;
+                while (at.u.dot(at.V + joining()) < 0) at.V *= 2;  // faster than new ground slackens it
             }
         }
     }
