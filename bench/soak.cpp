@@ -1,6 +1,6 @@
 // Runs many random valid scenarios, over every law of the registry, and checks each: it ends, every number in it is
 // finite, the ledger closes, and no dissipation channel ever gives anything back that its law says it cannot. A failure
-// prints its seed; `soak --seed N --scenarios 1` repeats it.
+// prints its seed; `soak --seed N --scenarios 1`, with the other options as they were, repeats it.
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -71,14 +71,14 @@ struct Tally {
 };
 
 void print_by_law(const char* kind, std::map<std::string, Outcomes>& laws) {
-    fmt::print("{:<22}{:>10}{:>10}{:>10}\n", kind, "passed", "failed", "refused");
+    fmt::print("{:<28}{:>10}{:>10}{:>10}\n", kind, "passed", "failed", "refused");
     for (auto& [name, o] : laws)
-        fmt::print("  {:<20}{:>10}{:>10}{:>10}\n", name, o[Outcome::passed], o[Outcome::failed], o[Outcome::refused]);
+        fmt::print("  {:<26}{:>10}{:>10}{:>10}\n", name, o[Outcome::passed], o[Outcome::failed], o[Outcome::refused]);
 }
 
-void soak_one(std::uint64_t seed, bool mixed, Tally& tally) {
+void soak_one(std::uint64_t seed, bool mixed, const std::string& friction, Tally& tally) {
     const auto started = std::chrono::steady_clock::now();
-    const Simulation simulation = RandomScenario(seed, Laws::every, mixed).draw();
+    const Simulation simulation = RandomScenario(seed, Laws::every, mixed, friction).draw();
     std::string wrong;
     double residual = 0;
     Cost cost;
@@ -117,6 +117,10 @@ int main(int argc, char** argv) {
     app.add_option("--threads", threads, "how many at a time")->capture_default_str();
     bool mixed = false;
     app.add_flag("--mixed", mixed, "the spheres of a body have different laws");
+    std::set<std::string> frictions;
+    for_each_law<FrictionLaw>([&](const auto& law) { frictions.emplace(law.description.name); });
+    std::string friction;
+    app.add_option("--friction", friction, "the friction law of every contact")->check(CLI::IsMember(frictions));
     CLI11_PARSE(app, argc, argv);
 
     Tally tally;
@@ -124,7 +128,7 @@ int main(int argc, char** argv) {
     std::vector<std::thread> workers;
     for (unsigned t = 0; t < threads; ++t)
         workers.emplace_back([&] {
-            for (std::uint64_t k = next++; k < scenarios; k = next++) soak_one(seed + k, mixed, tally);
+            for (std::uint64_t k = next++; k < scenarios; k = next++) soak_one(seed + k, mixed, friction, tally);
         });
     for (std::thread& w : workers) w.join();
     fmt::print("{} scenarios: {} passed, {} failed, {} refused as too expensive; {} used the implicit method\n",

@@ -51,7 +51,7 @@ UNITS = (
     " kg*m^2 kg m^2 in ft lb % 1 m^ m^1e9 m^-1 /s m//s m*m*m*m*m*m*m kPA Gpa °C K banana"
 ).split(" ")
 LAWS = (
-    "azad-featherstone kuwabara-kono hunt-crossley marhefka-orin lankarani-nikravesh flores falcon tsuji hertz linear"
+    "azad-featherstone azad-featherstone-passive kuwabara-kono hunt-crossley marhefka-orin lankarani-nikravesh flores falcon tsuji hertz linear"
     " regularized-coulomb dahl lugre elasto-plastic bliman-sorine seven-parameter reset-integrator haessig-friedland none"
     " coulomb Linear"
 ).split()

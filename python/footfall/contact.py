@@ -340,7 +340,9 @@ class ContactLaw:
 
         Depth, rate and slip velocity are held over the step. It is stable for every ``dt``; an explicit step with
         ``bristle_rate`` is not beyond 2 D_t/K_t, half a millisecond for the paper's numbers. Sticking and free recovery
-        are exact; slipping is integrated by an L-stable method with sub-steps.
+        are exact; slipping is integrated by an L-stable method with sub-steps. Under ``azad-featherstone-passive`` the
+        ground that joins the patch in ``dt`` joins at the step's end, and in flight u becomes zero; a loop of your own on
+        :meth:`evaluate` sets it to zero in flight itself.
 
         A simulator with semi-implicit steps takes its forces from :meth:`evaluate`, moves its velocities, and then the
         bristles with the new ones by this, as it moves its positions. The mean force is for motions that are

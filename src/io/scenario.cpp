@@ -41,7 +41,8 @@ public:
         law.stiffness = normal_stiffness(modulus_, radius);   // (10)
         law.damping = normal_damping(alpha(radius), radius);  // (12)
     }
-    void give(AzadFeatherstoneFriction<>& law, double radius) const {
+    /// Of the paper's friction law and its passive twin.
+    void give(SpringDamperClutch<double, 1>& law, double radius) const {
         law.stiffness = tangential_stiffness(modulus_, radius);   // (23)
         law.damping = tangential_damping(alpha(radius), radius);  // (24)
     }

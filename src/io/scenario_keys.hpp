@@ -33,6 +33,10 @@ template <>
 struct FromMaterial<AzadFeatherstoneFriction<double>> {
     static constexpr bool known = true;
 };
+template <>
+struct FromMaterial<AzadFeatherstonePassiveFriction<double>> {
+    static constexpr bool known = true;
+};
 
 /// This parameter is one that [contact.material] gives.
 template <class Law, class Owner>

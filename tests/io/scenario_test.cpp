@@ -212,6 +212,18 @@ TEST(Scenario, TakesTheCoefficientsFromMaterials) {
     EXPECT_EQ(friction.coefficient, 0.2);
 }
 
+TEST(Scenario, GivesThePassiveLawTheSameCoefficientsFromMaterials) {
+    std::string text = with_material("damping_coefficient = 1000");
+    const std::string paper = "friction]\nlaw = 'azad-featherstone'";
+    ASSERT_NE(text.find(paper), std::string::npos) << text;
+    text.replace(text.find(paper), paper.size(), "friction]\nlaw = 'azad-featherstone-passive'");
+    const Simulation s = simulation_of(text);
+    const auto& friction = std::get<AzadFeatherstonePassiveFriction<>>(s.contacts.at(0).friction);
+    EXPECT_NEAR(friction.stiffness, 4266666.6666667, 1e-6);
+    EXPECT_NEAR(friction.damping, 502.65482457437, 1e-10);
+    EXPECT_EQ(friction.coefficient, 0.2);
+}
+
 TEST(Scenario, TakesTheDampingFromADampingTime) {
     // D_t = tau K_t: 4.2667e6 N/m^1.5 * 1 ms.
     const Simulation s = simulation_of(with_material("damping_time = '1 ms'"));
@@ -329,7 +341,8 @@ TEST(ScenarioErrors, UnknownLawNamesTheNearestAndAll) {
                     "flores, falcon, tsuji, hertz, linear)"});
     expect_problem(changed({{23, "law = 'lugree'"}}), 23, 7,
                    {"contact.friction.law: 'lugree' is not allowed: did you mean 'lugre'?",
-                    "(one of none, azad-featherstone, linear, regularized-coulomb, dahl, lugre, elasto-plastic, "
+                    "(one of none, azad-featherstone, azad-featherstone-passive, linear, regularized-coulomb, dahl, "
+                    "lugre, elasto-plastic, "
                     "bliman-sorine, seven-parameter, reset-integrator, haessig-friedland)"});
 }
 

@@ -24,7 +24,7 @@ struct TypesOf<std::variant<Laws...>> {
 using NormalLaws = TypesOf<NormalLaw>::type;
 
 /// The friction laws that have a bristle.
-using BristleLaws = ::testing::Types<AzadFeatherstoneFriction<>, LinearFriction<>>;
+using BristleLaws = ::testing::Types<AzadFeatherstoneFriction<>, AzadFeatherstonePassiveFriction<>, LinearFriction<>>;
 
 /// Pairs of a normal law and a friction law with a clutch; those with internal states are in friction_states_test.cpp.
 /// ContactLaw asks nothing of a normal law that NormalLawTest does not try on each of them, so three that start with
@@ -42,7 +42,9 @@ struct PairsOf<std::variant<Normals...>, std::variant<Frictions...>> {
 using SomeNormals = std::variant<AzadFeatherstoneNormal<>, HuntCrossleyNormal<>, LinearNormal<>>;
 using ContactLaws = PairsOf<SomeNormals, ClutchFrictionLaw>::type;
 /// Those of them in which stick and slip differ.
-using ClutchedContactLaws = PairsOf<SomeNormals, std::variant<AzadFeatherstoneFriction<>, LinearFriction<>>>::type;
+using ClutchedContactLaws =
+    PairsOf<SomeNormals,
+            std::variant<AzadFeatherstoneFriction<>, AzadFeatherstonePassiveFriction<>, LinearFriction<>>>::type;
 
 /// Names typed tests after the law, not after its position in the list.
 struct LawNames {

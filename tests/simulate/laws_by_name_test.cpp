@@ -18,6 +18,7 @@ namespace {
 const std::map<std::string, std::string> keys{
     {"none", ""},
     {"azad-featherstone", "stiffness = 12.75e6\ndamping = 3.1e3\ncoefficient = 0.2\nviscous = 0.1"},
+    {"azad-featherstone-passive", "stiffness = 12.75e6\ndamping = 3.1e3\ncoefficient = 0.2\nviscous = 0.1"},
     {"linear", "stiffness = 1.3e5\ndamping = 33\ncoefficient = 0.2"},
     {"regularized-coulomb", "coefficient = 0.2\nrounding_speed = '1 mm/s'"},
     {"dahl", "stiffness = 1.5e4\ncoefficient = 0.2"},

@@ -8,6 +8,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -29,8 +30,9 @@ enum class Laws {
 class RandomScenario {
 public:
     /// `mixed`: each sphere of a body has laws of its own.
-    explicit RandomScenario(std::uint64_t seed, Laws laws = Laws::every, bool mixed = false)
-        : random_(seed), laws_(laws), mixed_(mixed) {}
+    /// Where every law is drawn from, `friction` is the name of the friction law of all contacts; empty: any.
+    explicit RandomScenario(std::uint64_t seed, Laws laws = Laws::every, bool mixed = false, std::string friction = "")
+        : random_(seed), laws_(laws), mixed_(mixed), friction_(std::move(friction)) {}
 
     Simulation draw() {
         radius_ = decades(-3, 0);
@@ -126,7 +128,9 @@ private:
     }
     [[nodiscard]] std::vector<FrictionLaw> friction_kinds() const {
         if (laws_ == Laws::clutch) return {NoFriction<>{}, AzadFeatherstoneFriction<>{}, LinearFriction<>{}};
-        return all_of<FrictionLaw>();
+        std::vector<FrictionLaw> kinds = all_of<FrictionLaw>();
+        if (!friction_.empty()) std::erase_if(kinds, [this](const auto& law) { return name_of(law) != friction_; });
+        return kinds;
     }
     template <class Variant>
     static std::vector<Variant> all_of() {
@@ -232,6 +236,10 @@ private:
         const double K = f.stiffness / std::sqrt(depth_);
         law = {{K, K * f.relaxation, f.mu, f.viscous}};
     }
+    void draw_into(AzadFeatherstonePassiveFriction<>& law, const Friction& f) const {
+        const double K = f.stiffness / std::sqrt(depth_);
+        law = {{K, K * f.relaxation, f.mu, f.viscous}};
+    }
     void draw_into(LinearFriction<>& law, const Friction& f) const {
         law = {{f.stiffness, f.stiffness * f.relaxation, f.mu, f.viscous}};
     }
@@ -309,6 +317,7 @@ private:
     std::mt19937_64 random_;
     Laws laws_;
     bool mixed_;
+    std::string friction_;
     double radius_ = 1, speed_ = 1, mass_ = 1, depth_ = 1, period_ = 1;
     bool flat_ = false, general_ = false;
     double n_ = 1.5, p_ = 1.5, q_ = 1;
@@ -347,6 +356,9 @@ inline std::string verdict(const Run& run, const Simulation& simulation) {
     if (run.max_residual > 1e-8) return fmt::format("residual {:.2e} is above 1e-8", run.max_residual);
     // A channel is integrated to the tolerance, so it may waver by that much where it stands still.
     const double slack = 10 * simulation.options.tolerance * run.energy_scale;
+    // What the changing stiffness takes follows |zdot|. Inside an implicit step at rest the interpolant's zdot is known
+    // to some tolerances only, where a stiff bristle makes much of it; at the step's ends it is right.
+    const double interpolated_slack = 100 * slack;
     for (std::size_t k = 0; k < run.samples.size(); ++k) {
         if (!finite(run.samples[k])) return fmt::format("sample {} is not finite", k);
         if (k == 0) continue;
@@ -358,6 +370,9 @@ inline std::string verdict(const Run& run, const Simulation& simulation) {
                 return fmt::format("tangential damper of sphere {} gives back", i);
             if (clutch_only_takes(simulation.contacts[i].friction) && b.clutch < a.clutch - slack)
                 return fmt::format("clutch of sphere {} gives back", i);
+            if (std::holds_alternative<AzadFeatherstonePassiveFriction<>>(simulation.contacts[i].friction) &&
+                b.stiffness_change < a.stiffness_change - interpolated_slack)
+                return fmt::format("changing stiffness of sphere {} makes energy", i);
         }
     }
     return finite(run.final) ? "" : "the final state is not finite";

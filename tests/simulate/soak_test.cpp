@@ -28,4 +28,13 @@ INSTANTIATE_TEST_SUITE_P(VanishingDepth, SeedThatOnceFailed, testing::Values(843
 // Implicit steps past the end of one of several contacts, where dt/dsigma has a pole.
 INSTANTIATE_TEST_SUITE_P(Pole, SeedThatOnceFailed, testing::Values(3986));
 
+class UnderThePassiveLaw : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(UnderThePassiveLaw, EndsFiniteWithItsLedgerClosedAndNothingMade) {
+    const Simulation simulation =
+        soak::RandomScenario(GetParam(), soak::Laws::every, false, "azad-featherstone-passive").draw();
+    EXPECT_EQ(soak::verdict(run(simulation), simulation), "");
+}
+INSTANTIATE_TEST_SUITE_P(, UnderThePassiveLaw, testing::Range<std::uint64_t>(1, 25));
+
 }  // namespace

@@ -29,7 +29,8 @@ public:
 
     /// Advances `x`, the states of a contact, over `dt` [s], > 0, with depth [m], its rate [m/s] and the slip velocity
     /// V [m/s] held. `was` is the phase in which the contact has been, flight where that is not known. States of
-    /// friction other than a bristle become those of a new contact where there is no load. Where one of the numbers is
+    /// friction other than a bristle become those of a new contact where there is no load; where ground joins the patch
+    /// unstrained, what joins in dt does so at its end, and no bristle is left in flight. Where one of the numbers is
     /// not finite, nor is what comes out. A step of which something is `left` has no meaning: take shorter ones.
     [[nodiscard]] ContactStep operator()(Phase was, double depth, double depth_rate, const Vector2<double>& V,
                                          std::span<double> x, double dt) const noexcept {
@@ -42,6 +43,7 @@ public:
         if (mode.loaded()) step.normal_force = law_.normal_force(t, x);
         const Load<double> load{law_.scale_at(t.root_depth), mode.touches() ? law_.load_at(t, x).over_scale : 0};
         friction_.advance(load, V, dt, x.subspan(static_cast<std::size_t>(law_.normal_state_count())), step);
+        law_.deepen(t, dt, x);
         return step;
     }
 

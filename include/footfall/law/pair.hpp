@@ -136,6 +136,11 @@ public:
         return {scale_at(t.root_depth), normal_over_scale(t, x).total()};
     }
 
+    /// Writes the states once the depth of a host's contact, held at t for dt, has changed as its rate says.
+    void deepen(const Touch<S>& t, const S& dt, std::span<S> x) const noexcept {
+        of_friction([&](const auto& part) { part.deepen(t, dt, friction_states(x)); });
+    }
+
     // ---- a contact that is found, not followed ----------------------------------------------------------------------
 
     /// The mode of a contact in these states: by the forces, or, where friction remembers its phase, by the mode it was
@@ -272,6 +277,7 @@ public:
         Jump<S> j{mode};
         if (guard == depth_guard) {
             j.mode = {Phase::flight};
+            of_friction([&](const auto& part) { part.part(friction_states(x)); });
             j.report(EventKind::recovered);
         } else if (mode.drags) {
             j.mode.drags = false;

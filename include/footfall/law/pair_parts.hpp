@@ -92,9 +92,6 @@ public:
     }
 
 protected:
-    /// Whether the compiler knows that there is no friction.
-    static constexpr bool frictionless = std::is_same_v<Friction, NoFriction<S>>;
-
     static constexpr std::size_t count(int n) noexcept { return static_cast<std::size_t>(n); }
 
     template <class Visit>

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "footfall/law/friction/azad_featherstone.hpp"
+#include "footfall/law/friction/azad_featherstone_passive.hpp"
 #include "footfall/law/friction/bliman_sorine.hpp"
 #include "footfall/law/friction/dahl.hpp"
 #include "footfall/law/friction/elasto_plastic.hpp"
@@ -49,7 +50,8 @@ using RateFrictionLawOver = std::variant<RegularizedCoulombFriction<S>, DahlFric
 
 /// The friction laws with one bristle and a clutch (friction/spring_damper_clutch.hpp), and none.
 template <class S>
-using ClutchFrictionLawOver = std::variant<NoFriction<S>, AzadFeatherstoneFriction<S>, LinearFriction<S>>;
+using ClutchFrictionLawOver =
+    std::variant<NoFriction<S>, AzadFeatherstoneFriction<S>, AzadFeatherstonePassiveFriction<S>, LinearFriction<S>>;
 using ClutchFrictionLaw = ClutchFrictionLawOver<double>;
 
 namespace detail {

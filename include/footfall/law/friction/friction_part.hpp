@@ -88,6 +88,10 @@ struct FrictionPart<NoFriction<S>> {
     [[nodiscard]] static S enter_slip(const Touch<S>&, const Load<S>&, std::span<S>) noexcept { return S(0); }
     [[nodiscard]] static S release(const S&, std::span<S>) noexcept { return S(0); }
     [[nodiscard]] static S stiffen(const S&, States) noexcept { return S(0); }
+    /// The depth is zero: writes the states of a sphere in flight.
+    static void part(std::span<S>) noexcept {}
+    /// Writes the states after dt in which the depth alone has changed, as its rate says.
+    static void deepen(const Touch<S>&, const S&, std::span<S>) noexcept {}
 };
 
 template <class Law>
@@ -136,7 +140,11 @@ struct FrictionPart<Law> {
     void idle(const Touch<S>& t, const S& scale, States x, std::span<S> rates, Response<S>& r) const noexcept {
         const Vector2<S> u = bristle(x);
         const Vector2<S> u_rate = (law.damping > S(0) ? S(-law.recovery_rate()) : S(0)) * u;
-        put_vector(rates, 0, u_rate);
+        if constexpr (Law::joins_unstrained) {
+            put_vector(rates, 0, u_rate + joining_rate(t, u));
+        } else {
+            put_vector(rates, 0, u_rate);
+        }
         r.power[by_tangential_damper] = scale * law.damping * u_rate.squaredNorm();  // (28)
         r.power[unpaid] = -law.stiffening_power(t.root_depth, t.depth_rate, u);
     }
@@ -158,7 +166,13 @@ struct FrictionPart<Law> {
 
     /// Stick or slip, by the force that V makes in dt. (26)
     [[nodiscard]] Phase first(const Touch<S>& t, const Load<S>& load, States x, const S& dt) const noexcept {
-        return law.holds(load.over_scale, t.slip, Vector2<S>(bristle(x) + t.slip * dt)) ? Phase::stick : Phase::slip;
+        Vector2<S> u = bristle(x);
+        if constexpr (Law::joins_unstrained) {
+            u = law.stretched(u, t.slip, dt);
+        } else {
+            u = u + t.slip * dt;
+        }
+        return law.holds(load.over_scale, t.slip, u) ? Phase::stick : Phase::slip;
     }
     [[nodiscard]] static Phase begin() noexcept { return Phase::slip; }
     /// The forces say it. (26)
@@ -183,8 +197,10 @@ struct FrictionPart<Law> {
 
     [[nodiscard]] S margin(Phase phase, const Touch<S>& t, const Load<S>& load, const S& load_rate,
                            States x) const noexcept {
-        return phase == Phase::stick ? law.cone_margin(load.over_scale, t.slip, bristle(x))
-                                     : law.slip_margin(load.scale, load.over_scale, load_rate, t.slip, bristle(x));
+        const Vector2<S> u = bristle(x);
+        return phase == Phase::stick
+                   ? law.cone_margin(load.over_scale, t.slip, u)
+                   : law.slip_margin(load.scale, load.over_scale, load_rate, stretching_velocity(t, u), u);
     }
 
     [[nodiscard]] FrictionChange<S> cross(Phase phase, const Touch<S>& t, const Load<S>& load,
@@ -216,25 +232,69 @@ struct FrictionPart<Law> {
     [[nodiscard]] S stiffen(const S& s, States x) const noexcept {
         return scale_power > 0 ? law.stored_energy(law.scale(s), bristle(x)) : S(0);
     }
+    /// With no depth there is no ground that could keep a stretch for the next contact.
+    static void part([[maybe_unused]] std::span<S> x) noexcept {
+        if constexpr (Law::joins_unstrained) put_vector(x, 0, Vector2<S>(Vector2<S>::Zero()));
+    }
+    void deepen([[maybe_unused]] const Touch<S>& t, [[maybe_unused]] const S& dt,
+                [[maybe_unused]] std::span<S> x) const noexcept {
+        if constexpr (Law::joins_unstrained) put_vector(x, 0, law.joined(t.root_depth, t.depth_rate, dt, bristle(x)));
+    }
 
 private:
+    /// What the growing patch does to the bristle [m/s].
+    [[nodiscard, gnu::always_inline]] Vector2<S> joining_rate([[maybe_unused]] const Touch<S>& t,
+                                                              [[maybe_unused]] const Vector2<S>& u) const noexcept {
+        if constexpr (Law::joins_unstrained) {
+            return law.joining_rate(t.root_depth, t.depth_rate, u);
+        } else {
+            return Vector2<S>::Zero();
+        }
+    }
+    /// What a bristle that slips is stretched by, less its clutch: one that nothing damps stays on its cone, so what
+    /// the growing patch slackens its clutch does not have to.
+    [[nodiscard, gnu::always_inline]] Vector2<S> stretching_velocity(
+        const Touch<S>& t, [[maybe_unused]] const Vector2<S>& u) const noexcept {
+        if constexpr (Law::joins_unstrained) {
+            if (law.plastic()) return t.slip + joining_rate(t, u);
+        }
+        return t.slip;
+    }
     [[gnu::always_inline]] void respond(Phase phase, const Touch<S>& t, const Load<S>& load, const S& load_rate,
                                         States x, std::span<S> rates, Response<S>& r) const noexcept {
         const Vector2<S> u = bristle(x);
-        const auto book = [&](const FrictionResponse<S>& f) __attribute__((always_inline)) {
-            put_vector(rates, 0, f.bristle_rate);
-            r.push.friction = load.scale * f.force;
-            r.power[by_tangential_damper] = load.scale * law.damping * f.bristle_rate.squaredNorm();  // (28)
-            r.power[by_clutch] = -r.push.friction.dot(f.clutch_velocity);                             // (29), (30)
-        };
-        if (phase == Phase::stick) {
-            book(law.stick(t.slip, u));
+        if constexpr (Law::joins_unstrained) {
+            respond_joining(phase, t, load, load_rate, u, rates, r);
+        } else if (phase == Phase::stick) {
+            put(law.stick(t.slip, u), Vector2<S>::Zero(), load, rates, r);
         } else {
-            book(law.slip(load.scale, load.over_scale, load_rate, t.slip, u));
+            put(law.slip(load.scale, load.over_scale, load_rate, t.slip, u), Vector2<S>::Zero(), load, rates, r);
         }
         r.power[unpaid] = -law.stiffening_power(t.root_depth, t.depth_rate, u);
         // Without D_t and C_V the clutch's velocity depends on how fast its load changes.
         r.asks_for_load_rate = phase == Phase::slip && law.plastic();
+    }
+    /// Out of line: what every law computes stays as short as it is.
+    [[gnu::noinline]] void respond_joining(Phase phase, const Touch<S>& t, const Load<S>& load, const S& load_rate,
+                                           const Vector2<S>& u, std::span<S> rates, Response<S>& r) const noexcept {
+        if (phase == Phase::stick) {
+            put(law.stick(t.slip, u), joining_rate(t, u), load, rates, r);
+            return;
+        }
+        // The velocity that is put in for a bristle that nothing damps says all of its rate.
+        const Vector2<S> joining = law.plastic() ? Vector2<S>::Zero() : joining_rate(t, u);
+        put(law.slip(load.scale, load.over_scale, load_rate, stretching_velocity(t, u), u), joining, load, rates, r);
+    }
+    [[gnu::always_inline]] void put(const FrictionResponse<S>& f, [[maybe_unused]] const Vector2<S>& joining,
+                                    const Load<S>& load, std::span<S> rates, Response<S>& r) const noexcept {
+        if constexpr (Law::joins_unstrained) {
+            put_vector(rates, 0, f.bristle_rate + joining);
+        } else {
+            put_vector(rates, 0, f.bristle_rate);
+        }
+        r.push.friction = load.scale * f.force;
+        r.power[by_tangential_damper] = load.scale * law.damping * f.bristle_rate.squaredNorm();  // (28)
+        r.power[by_clutch] = -r.push.friction.dot(f.clutch_velocity);                             // (29), (30)
     }
 };
 
@@ -368,6 +428,8 @@ struct FrictionPart<Law> {
         return S(0);
     }
     [[nodiscard]] static S stiffen(const S&, States) noexcept { return S(0); }
+    static void part(std::span<S>) noexcept {}
+    static void deepen(const Touch<S>&, const S&, std::span<S>) noexcept {}
 
 private:
     /// w [m].

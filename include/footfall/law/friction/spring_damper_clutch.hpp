@@ -44,6 +44,8 @@ struct SpringDamperClutch {
     using value_type = S;
     static constexpr int ScalePower = ScalePower_;
     static constexpr bool has_bristle = true;
+    /// Whether ground that joins the patch joins unstrained, so that a depth that grows slackens the bristle.
+    static constexpr bool joins_unstrained = false;
 
     S stiffness;       ///< K_t, tangential stiffness [N/m^1.5 or N/m], > 0. (23) or (19)
     S damping;         ///< D_t, tangential damping [N s/m^1.5 or N s/m], >= 0. (24) or (19)
