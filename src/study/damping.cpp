@@ -8,6 +8,8 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
+#include "footfall/law/any_normal.hpp"
+
 namespace footfall {
 namespace {
 
@@ -21,7 +23,7 @@ bool visit_damping(const NormalLaw& any, Visit&& visit) {
                 const auto dissipates = [&](double value) {
                     Law probe = law;
                     probe.*parameter.member = value;
-                    return probe.template force<0>(1.0, 1.0).dissipative != 0;
+                    return AnyNormal<>(probe).force(1.0, 1.0).dissipative != 0;
                 };
                 if (dissipates(0) || !dissipates(1)) continue;
                 visit(law, parameter);
@@ -72,7 +74,7 @@ NormalLaw with_restitution(const NormalLaw& law, double mass, double speed, doub
         damping = 0;
         const double deepest = normal_impact(damped, mass, speed, options).peak_indentation;
         damping = 1;
-        const auto force = damped.template force<0>(std::sqrt(deepest / 2), speed);
+        const auto force = AnyNormal<>(damped).force(std::sqrt(deepest / 2), speed);
         const double unit = std::abs(force.elastic / force.dissipative);
 
         constexpr double factor = 4, most = 1e7;

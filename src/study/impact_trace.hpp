@@ -1,9 +1,10 @@
 // One impact along the normal without gravity, over any scalar: with dual numbers, its derivatives with respect to the
 // law's parameters, the mass and the speed come out of the same integration.
 //
-//   ds/dsigma = w/2,   dw/dsigma = -s F(s, w)/m,   dt/dsigma = s         s = sqrt(z), w = zdot
+//   ds/dsigma = w/2,   dw/dsigma = -s F(s, w, x)/m,   dx/dsigma = s xdot(s, w, x),   dt/dsigma = s
 //
-// which is regular at touchdown (docs/theory.md, "The onset of contact"). Contact ends where the force does (14).
+// with s = sqrt(z), w = zdot and the states x of the law, where it has some that change while the impact lasts; which
+// is regular at touchdown (docs/theory.md, "The onset of contact"). Contact ends where the force does (14).
 //
 // Steps are chosen by the values alone; the derivatives then have an error of the same order as the values, times how
 // fast they grow. The end of contact moves with the parameters too, but the speed there does not notice to first order:
@@ -100,9 +101,11 @@ public:
     }
 
 private:
-    using State = Eigen::Array<S, 3, 1>;
-    static constexpr Eigen::Index root = 0, rate = 1, time = 2;
-    using Stepper = DormandPrince853<State, 2>;
+    // Room for the law that has the most states that move; those that this law has not stay zero.
+    static constexpr int moving = AnyNormal<S>::most_moving_states;
+    using State = Eigen::Array<S, 3 + moving, 1>;
+    static constexpr Eigen::Index root = 0, rate = 1, first_state = 2, time = 2 + moving;
+    using Stepper = DormandPrince853<State, 2 + moving>;
 
     static S clamped(const S& force) { return force > S(0) ? force : S(0); }
 
@@ -126,15 +129,23 @@ private:
         if (!(s_scale > 0) || !std::isfinite(sigma_scale) || !(v > 0)) return std::nullopt;
         const auto f = [&](const State& y, State& out, bool) {
             out[root] = S(0.5) * y[rate];
-            out[rate] = -y[root] * law_.template force<0>(y[root], y[rate]).total() / mass_;
+            out[rate] = -y[root] * force(y) / mass_;
+            put_state_rates(y, out);
             out[time] = y[root];
         };
         typename Stepper::Values weight;
-        weight << 1 / (tolerance_ * s_scale), 1 / (tolerance_ * v), 1 / (tolerance_ * s_scale * sigma_scale);
+        weight.setZero();
+        weight[root] = 1 / (tolerance_ * s_scale);
+        weight[rate] = 1 / (tolerance_ * v);
+        for (int k = 0; k < law_.moving_states(); ++k)
+            weight[first_state + k] = 1 / (tolerance_ * law_.state_size(k, S(s_scale)));
+        weight[time] = 1 / (tolerance_ * s_scale * sigma_scale);
 
         Stepper step;
         State y;
-        y << S(0), speed_, S(0);
+        y.setConstant(S(0));
+        y[rate] = speed_;
+        for (int k = 0; k < law_.moving_states(); ++k) y[first_state + k] = law_.begun()[static_cast<std::size_t>(k)];
         step.begin(f, y);
         double h = 1e-2 * sigma_scale;
         for (int i = 0; i < most_steps; ++i) {
@@ -146,13 +157,10 @@ private:
                 continue;
             }
             step.finish(f);
-            const auto presses = [&](const S& s, const S& w) { return s > S(0) && law_.load(s, w) > S(0); };
-            const bool ended = !presses(step.end()[root], step.end()[rate]);
+            const bool ended = !presses(step.end());
             if (dense || ended) step.prepare_dense(f);
             if (ended) {
-                const auto presses_at = [&](double theta) {
-                    return theta <= 0 || presses(step.at(theta, root), step.at(theta, rate));
-                };
+                const auto presses_at = [&](double theta) { return theta <= 0 || presses(moving_at(step, theta)); };
                 const double end = turning_point(0, 1, presses_at);
                 visit(step, h, end);
                 return -step.at(end, rate);
@@ -187,7 +195,39 @@ private:
     }
 
     [[nodiscard]] S force_at(const Stepper& step, const S& theta) const {
-        return clamped(law_.template force<0>(step.at(theta, root), step.at(theta, rate)).total());
+        return clamped(force(moving_at(step, theta)));
+    }
+
+    /// All but the time.
+    template <class Theta>
+    [[nodiscard]] static State moving_at(const Stepper& step, const Theta& theta) {
+        State y;
+        for (Eigen::Index k = 0; k < time; ++k) y[k] = step.at(theta, k);
+        y[time] = S(0);
+        return y;
+    }
+
+    // The law in the states of y. Where no law has states that move, nothing is asked.
+
+    [[nodiscard]] std::span<const S> states_in(const State& y) const {
+        return {y.data() + first_state, static_cast<std::size_t>(law_.moving_states())};
+    }
+    [[nodiscard]] bool states_move() const { return moving > 0 && law_.moving_states() > 0; }
+    [[nodiscard]] S force(const State& y) const {
+        return (states_move() ? law_.template force<0>(y[root], y[rate], states_in(y))
+                              : law_.template force<0>(y[root], y[rate]))
+            .total();
+    }
+    [[nodiscard]] bool presses(const State& y) const {
+        if (!(y[root] > S(0))) return false;
+        return (states_move() ? law_.load(y[root], y[rate], states_in(y)) : law_.load(y[root], y[rate])) > S(0);
+    }
+    void put_state_rates(const State& y, State& out) const {
+        if (moving == 0) return;
+        out.template segment<moving>(first_state).setConstant(S(0));
+        const auto n = states_in(y).size();
+        law_.rates(y[root], y[rate], states_in(y), std::span<S>(out.data() + first_state, n));
+        for (std::size_t k = 0; k < n; ++k) out[first_state + static_cast<Eigen::Index>(k)] *= y[root];
     }
 
     AnyNormal<S> law_;

@@ -13,7 +13,9 @@
 
 #include <fmt/core.h>
 
+#include "footfall/law/any_normal.hpp"
 #include "footfall/simulate/run.hpp"
+#include "simulate/tried_laws.hpp"
 
 namespace footfall::soak {
 
@@ -192,13 +194,16 @@ private:
             } else if (p.key == "exponent") {
                 value = general_ ? uniform(0, 1) : p.fallback.value();
             } else {
-                throw std::logic_error(fmt::format("no rule draws {} of {}", p.key, Law::description.name));
+                value = draw_by_unit(p);
             }
         }
         const double s = std::sqrt(depth_);
-        law.stiffness = 0.5 * energy / law.stored_energy(s);
+        const double stored = AnyNormal<>(law).stored_energy(s);  // at a stiffness of 1
+        law.stiffness = 0;
+        const double rest = AnyNormal<>(law).stored_energy(s);
+        law.stiffness = stored > rest ? 0.5 * energy / (stored - rest) : 1;
         if (!lossy) return;
-        const NormalForce<double> f = law.force(s, speed_);
+        const NormalForce<double> f = AnyNormal<>(law).force(s, speed_);
         law.*lossy = loss * f.elastic / f.dissipative;
     }
 
@@ -273,9 +278,20 @@ private:
             } else if (p.key == "memory_time" || p.key == "rise_time") {
                 value = period_ * decades(-2, 2);
             } else {
-                throw std::logic_error(fmt::format("no rule draws {} of {}", p.key, Law::description.name));
+                value = draw_by_unit(p);
             }
         }
+    }
+    /// What no rule knows by its key: by its unit, about its natural size in this impact.
+    template <class Law>
+    double draw_by_unit(const Parameter<Law>& p) {
+        if (p.fallback && chance(0.3)) return *p.fallback;
+        if (p.may_be_zero() && chance(0.1)) return 0;
+        if (p.at_most_one) return uniform(0.02, 1);
+        if (p.unit_depends)
+            throw std::logic_error(fmt::format("no rule draws {} of {}, whose unit depends on other parameters", p.key,
+                                               Law::description.name));
+        return test::Scale{.mass = mass_, .length = depth_, .time = period_}.of(p.unit) * decades(-1, 1);
     }
 
     void draw_start(Simulation& s) {
