@@ -15,7 +15,7 @@
 
 #include "footfall/law/any_normal.hpp"
 #include "footfall/simulate/run.hpp"
-#include "simulate/tried_laws.hpp"
+#include "tried_laws.hpp"
 
 namespace footfall::soak {
 
