@@ -10,7 +10,8 @@
 //
 // Source: Zener 1948, Elasticity and Anelasticity of Metals; for impacts Butcher & Segalman 2000, Characterizing
 // damping and restitution in compliant impacts via modified K-V and higher-order linear viscoelastic models, J. Appl.
-// Mech. 67:831. Unlike the linear law's, its force begins at zero, and both a slow and a fast impact are elastic.
+// Mech. 67:831. Unlike the linear law's, its force begins at zero. Restitution does not depend on the speed; it is 1
+// where tau is far shorter or far longer than the impact.
 //
 // It cannot represent a stiffness that grows with the depth, adhesion, or ground that is still dented at the next
 // impact.
