@@ -85,11 +85,11 @@ std::vector<EventKind> expect_slopes_of_neighbours(const ContactParameters& laws
     const Thrown<Slopes> dual = thrown<Slopes>(laws, variables, method);
     const Thrown<double> plain = thrown<double>(laws, here, method);
     EXPECT_EQ(dual.events, plain.events);
-    // The runs are good to about 1e-11 of each scale, their differences over 2 h to 5e-6. Where bonds snap one after
-    // the other, they do so in another order a little further on, where the slopes are others: some of that is within
-    // h.
+    // The runs are good to about 1e-11 of each scale, their differences over 2 h to 5e-6; a kink in a law's rates that
+    // no event marks costs a digit. Where bonds snap one after the other, they do so in another order a little further
+    // on, where the slopes are others: some of that is within h.
     constexpr double h = 1e-6;
-    const double tolerance = std::holds_alternative<HaessigFriedlandFriction<>>(laws.friction) ? 3e-4 : 3e-5;
+    const double tolerance = std::holds_alternative<HaessigFriedlandFriction<>>(laws.friction) ? 3e-4 : 1e-4;
     for (std::size_t k = 0; k < here.size(); ++k) {
         const auto at = [&](double by) {
             Inputs<double> moved = here;
