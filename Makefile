@@ -91,6 +91,11 @@ format-check:  ## Say which C++ files are not formatted
 layers:  ## Check that includes go one way
 	@scripts/check-layers.sh
 
+.PHONY: law-check
+law-check:  ## Add the example laws to a clean clone, by a file and a line each, and try them there
+	@scripts/install-deps.sh --test
+	@scripts/check-laws.py --jobs $(JOBS)
+
 lint: $(BUILD)/CMakeCache.txt  ## Run clang-tidy on the library and the command line
 	@CLANG_TIDY=$(CLANG_TIDY) scripts/lint.sh $(BUILD) $(JOBS)
 

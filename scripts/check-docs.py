@@ -11,9 +11,13 @@ The word after the language of a fenced block says what is done with it; a block
     ```toml scenario    a scenario that `footfall run` accepts
     ```toml FILE        the text of FILE, without its header comment
     ```json output      like text output
+
+Every law that the command line knows must have its place in README.md, docs/theory.md and docs/scenario.md, and every
+header of a law in docs/reference/cpp.md.
 """
 
 import argparse
+import json
 import os
 import pathlib
 import re
@@ -146,6 +150,23 @@ class Runner:
             self.printed = shell(f"'{folder}/build/example'", self.scratch, self.environment)
 
 
+def missing_laws(build):
+    """What no document says of a law, a line each."""
+    known = json.loads(subprocess.run([build / "footfall", "laws", "--json"], capture_output=True, check=True).stdout)
+    names = sorted({law["name"] for kind in known.values() for law in kind} - {"none"})
+    places = {"README.md": "`{}`", "docs/theory.md": "`{}`", "docs/scenario.md": '"{}"'}
+    for file, form in places.items():
+        text = (ROOT / file).read_text()
+        for name in names:
+            if form.format(name) not in text:
+                yield f"{file}: says nothing of the law {form.format(name)}; see docs/adding-a-law.md"
+    listed = (ROOT / "docs/reference/cpp.md").read_text()
+    headers = (ROOT / "include/footfall").glob("law/*/*.hpp")
+    for header in sorted(str(h.relative_to(ROOT / "include/footfall")) for h in headers):
+        if header not in listed:
+            yield f"docs/reference/cpp.md: does not list `{header}`; see docs/adding-a-law.md"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default="build", type=pathlib.Path, help="folder that footfall is built in")
@@ -159,6 +180,10 @@ def main():
     files = arguments.files or [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 
     checked = wrong = 0
+    if not arguments.files:
+        for line in missing_laws(build):
+            wrong += 1
+            print(line)
     for file in files:
         with tempfile.TemporaryDirectory() as scratch:
             runner = Runner(build, python, pathlib.Path(scratch))

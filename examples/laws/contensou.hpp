@@ -65,7 +65,7 @@ struct ContensouFriction {
         .limits = "no sticking: creeps under a small force"};
 
     static constexpr auto parameters() noexcept {
-        using Law = ContensouFriction<double>;
+        using Law = ContensouFriction<S>;
         return std::array{Parameter<Law>{"coefficient", "mu", "1", &Law::coefficient, "coefficient of friction",
                                          "no friction at all"},
                           Parameter<Law>{"rounding_speed", "v_eps", "m/s", &Law::rounding_speed,

@@ -7,10 +7,18 @@
 #include <type_traits>
 #include <variant>
 
+#include "footfall/law/erased.hpp"
 #include "footfall/law/friction/rate_friction.hpp"
 #include "footfall/law/registry.hpp"
 
 namespace footfall {
+
+/// Whether a law has a force over the load that follows from slip velocity and states alone.
+template <class Law>
+using IsRateFriction = std::bool_constant<RateFriction<Law>>;
+/// Those of the registry.
+template <class S>
+using RateFrictionLawOver = LawsThat<FrictionLawOver<S>, IsRateFriction>;
 
 /// Any of the registered laws with internal states (rate_friction.hpp says what the members mean). Spans of states have
 /// the length `state_count()`.

@@ -1,6 +1,7 @@
 // The laws of the registry as type lists, and random laws and states to try them on.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <tuple>
@@ -23,8 +24,11 @@ struct TypesOf<std::variant<Laws...>> {
 };
 using NormalLaws = TypesOf<NormalLaw>::type;
 
-/// The friction laws that have a bristle.
-using BristleLaws = ::testing::Types<AzadFeatherstoneFriction<>, AzadFeatherstonePassiveFriction<>, LinearFriction<>>;
+/// The friction laws that have a bristle with a clutch.
+template <class Law>
+using HasClutch = std::bool_constant<ClutchFriction<Law>>;
+using ClutchedLaws = LawsThat<FrictionLaw, HasClutch>;
+using BristleLaws = TypesOf<ClutchedLaws>::type;
 
 /// Pairs of a normal law and a friction law with a clutch; those with internal states are in friction_states_test.cpp.
 /// ContactLaw asks nothing of a normal law that NormalLawTest does not try on each of them, so three that start with
@@ -39,12 +43,14 @@ struct PairsOf<std::variant<Normals...>, std::variant<Frictions...>> {
     static ::testing::Types<Laws...> listed(const std::tuple<Laws...>&);
     using type = decltype(listed(std::tuple_cat(std::declval<row<Normals>>()...)));
 };
+/// The laws with one bristle and a clutch, and none.
+template <class Law>
+using HasClutchOrNothing = std::bool_constant<requires { Law::has_bristle; }>;
+using ClutchFrictionLaw = LawsThat<FrictionLaw, HasClutchOrNothing>;
 using SomeNormals = std::variant<AzadFeatherstoneNormal<>, HuntCrossleyNormal<>, LinearNormal<>>;
 using ContactLaws = PairsOf<SomeNormals, ClutchFrictionLaw>::type;
 /// Those of them in which stick and slip differ.
-using ClutchedContactLaws =
-    PairsOf<SomeNormals,
-            std::variant<AzadFeatherstoneFriction<>, AzadFeatherstonePassiveFriction<>, LinearFriction<>>>::type;
+using ClutchedContactLaws = PairsOf<SomeNormals, ClutchedLaws>::type;
 
 /// Names typed tests after the law, not after its position in the list.
 struct LawNames {
@@ -91,6 +97,38 @@ Law random_law() {
     prepare_law(law);
     if constexpr (requires { law.begin_impact(1.0); }) law.begin_impact(*decades(1e-4, 1e1));
     return law;
+}
+
+/// A random normal law in the states of an impact that has just begun.
+template <class Law>
+struct Landed {
+    using S = typename Law::value_type;
+    static constexpr auto states = static_cast<std::size_t>(NormalPart<Law>::states());
+
+    Law law;
+    std::array<S, states> x{};
+
+    template <int Over = 0>
+    [[nodiscard]] NormalForce<S> force(const S& s, const S& rate) const {
+        return part().force(Over, s, rate, x);
+    }
+    [[nodiscard]] S load(const S& s, const S& rate) const { return part().load(s, rate, x); }
+    [[nodiscard]] S stored_energy(const S& s) const { return part().stored_energy(s, x); }
+    template <class T>
+    [[nodiscard]] auto cast() const {
+        Landed<decltype(law.template cast<T>())> other{law.template cast<T>()};
+        for (std::size_t k = 0; k < states; ++k) other.x[k] = T(x[k]);
+        return other;
+    }
+
+private:
+    [[nodiscard]] NormalPart<Law> part() const { return {law}; }
+};
+template <class Law>
+Landed<Law> random_landed_law() {
+    Landed<Law> landed{random_law<Law>()};
+    NormalPart<Law>{landed.law}.land(*decades(1e-4, 1e1), landed.x);
+    return landed;
 }
 
 /// Whether the parameters of a normal law say that it dissipates nothing.

@@ -28,7 +28,7 @@ long double stored_at_depth(const Law& law, long double z) {
 
 TYPED_TEST(NormalLawTest, ElasticForceIsTheSlopeOfTheStoredEnergy) {
     check_property([] {
-        const auto law = random_law<TypeParam>();
+        const auto law = random_landed_law<TypeParam>();
         const ContactState at;
         const double elastic = law.force(at.s(), at.rate).elastic;
 
@@ -45,7 +45,7 @@ TYPED_TEST(NormalLawTest, ElasticForceIsTheSlopeOfTheStoredEnergy) {
 
 TYPED_TEST(NormalLawTest, StoredEnergyIsZeroAtTouchdownAndGrowsWithDepth) {
     check_property([] {
-        const auto law = random_law<TypeParam>();
+        const auto law = random_landed_law<TypeParam>();
         const double s = *decades(1e-4, 0.1);
         RC_ASSERT(law.stored_energy(0.0) == 0);
         RC_ASSERT(law.stored_energy(s) > 0);
@@ -55,17 +55,17 @@ TYPED_TEST(NormalLawTest, StoredEnergyIsZeroAtTouchdownAndGrowsWithDepth) {
 
 TYPED_TEST(NormalLawTest, DamperTakesEnergyInBothDirections) {
     check_property([] {
-        const auto law = random_law<TypeParam>();
+        const auto law = random_landed_law<TypeParam>();
         const ContactState at;
         const double power = law.force(at.s(), at.rate).dissipative * at.rate;
-        RC_ASSERT((is_elastic(law) ? power == 0 : power > 0));
+        RC_ASSERT((is_elastic(law.law) ? power == 0 : power > 0));
         RC_ASSERT(law.force(at.s(), 0.0).dissipative == 0);
     });
 }
 
 TYPED_TEST(NormalLawTest, ElasticPartDoesNotSeeTheRate) {
     check_property([] {
-        const auto law = random_law<TypeParam>();
+        const auto law = random_landed_law<TypeParam>();
         const ContactState at;
         RC_ASSERT(law.force(at.s(), at.rate).elastic == law.force(at.s(), -3 * at.rate).elastic);
     });
@@ -73,15 +73,15 @@ TYPED_TEST(NormalLawTest, ElasticPartDoesNotSeeTheRate) {
 
 TYPED_TEST(NormalLawTest, AnErasedPairIsTheLawItHolds) {
     check_property([] {
-        auto law = random_law<TypeParam>();
-        const Pair<NormalLaw, NoFriction<>> any(law, {});
+        Landed<TypeParam> law{random_law<TypeParam>()};
+        const Pair<NormalLaw, NoFriction<>> any(law.law, {});
         const ContactState at;
         const Touch<double> touch{at.s(), at.rate, Vector2<double>::Zero()};
         // An impact that begins is told to the law inside.
         const double speed = *decades(1e-2, 1e1);
         std::array<double, most_normal_states> states{};
         any.land({0, speed, Vector2<double>::Zero()}, std::span(states));
-        if constexpr (requires { law.begin_impact(speed); }) law.begin_impact(speed);
+        NormalPart<TypeParam>{law.law}.land(speed, law.x);
         RC_ASSERT(any.normal_parts(touch, states).elastic == law.force(at.s(), at.rate).elastic);
         RC_ASSERT(any.normal_parts(touch, states).dissipative == law.force(at.s(), at.rate).dissipative);
         RC_ASSERT(any.held({Phase::slip}, touch, states).normal_spring == law.stored_energy(at.s()));
@@ -109,12 +109,56 @@ TYPED_TEST(NormalLawTest, TheLawOfAnImpactComputesItsForce) {
         RC_ASSERT(computed.force(at.s(), at.rate).elastic == law.force(at.s(), at.rate).elastic);
         RC_ASSERT(computed.force(at.s(), at.rate).dissipative == law.force(at.s(), at.rate).dissipative);
     });
+
+// A law may be told of an impact by a member of its own, and by the states that it declares.
+TYPED_TEST(NormalLawTest, IsTheSameInTheStatesOfAnImpactAsWhereItKeepsThatItself) {
+    if constexpr (requires(TypeParam law) { law.begin_impact(1.0); }) {
+        check_property([] {
+            auto law = random_law<TypeParam>();
+            const ContactState at;
+            const double speed = *decades(1e-2, 1e1);
+            Landed<TypeParam> landed{law};
+            NormalPart<TypeParam>{law}.land(speed, landed.x);
+            law.begin_impact(speed);
+            RC_ASSERT(landed.force(at.s(), at.rate).total() == law.force(at.s(), at.rate).total());
+            RC_ASSERT(landed.load(at.s(), at.rate) == law.load(at.s(), at.rate));
+        });
+    }
+}
+
+// What its states take out of what is stored is what the depth has put in beyond the growth, whatever the states are.
+TYPED_TEST(NormalLawTest, TheLedgerClosesWhereItsStatesMove) {
+    if constexpr (NormalPart<TypeParam>::moving_states() > 0) {
+        check_property([] {
+            const auto landed = random_landed_law<TypeParam>();
+            const NormalPart<TypeParam> part{landed.law};
+            const ContactState at;
+            const double s = at.s();
+            auto x = landed.x, rates = x;
+            for (std::size_t k = 0; k < x.size(); ++k) x[k] = *uniform(-2, 2) * part.state_size(static_cast<int>(k), s);
+            part.rates(s, at.rate, x, rates);
+            using D = Dual<double, 1>;
+            const auto over = landed.law.template cast<D>();
+            std::array<D, Landed<TypeParam>::states> moving;
+            for (std::size_t k = 0; k < x.size(); ++k) moving[k] = D(x[k], {rates[k]});
+            const D root = sqrt(D(at.depth, {at.rate}));
+            const double growth = NormalPart<decltype(over)>{over}.stored_energy(root, moving).gradient[0];
+            const auto f = part.force(0, s, at.rate, x);
+            const double size = std::abs(f.elastic * at.rate) + std::abs(f.relaxation);
+            RC_ASSERT(near(growth, f.elastic * at.rate - f.relaxation, 1e-11 * size));
+            RC_ASSERT(part.stored_energy(s, x) >= 0);
+            RC_ASSERT(f.dissipative * at.rate + f.relaxation >= -1e-12 * size);
+            const auto scaled = part.force(1, s, at.rate, x);
+            RC_ASSERT(near(scaled.total() * s, f.total(), 1e-13 * (std::abs(f.elastic) + std::abs(f.dissipative))));
+            RC_ASSERT(near(scaled.relaxation * s, f.relaxation, 1e-13 * std::abs(f.relaxation)));
+        });
+    }
 }
 
 TYPED_TEST(NormalLawTest, IsFiniteAndContinuousALittlePastTheEndOfContact) {
     // An event locator looks there: whatever is not zero at the end shrinks on the way to it, however slowly.
     check_property([] {
-        const auto law = random_law<TypeParam>();
+        const auto law = random_landed_law<TypeParam>();
         const double rate = (coin() ? 1 : -1) * *decades(1e-4, 1e1);
         const auto load_jump = [&](double s) { return std::abs(law.load(s, rate) - law.load(-s, rate)); };
         const auto force_jump = [&](double s) {
@@ -131,7 +175,7 @@ TYPED_TEST(NormalLawTest, IsFiniteAndContinuousALittlePastTheEndOfContact) {
 
 TYPED_TEST(NormalLawTest, ScaledForceTimesItsScaleIsTheForce) {
     check_property([] {
-        const auto law = random_law<TypeParam>();
+        const auto law = random_landed_law<TypeParam>();
         const ContactState at;
         const auto force = law.force(at.s(), at.rate), scaled = law.template force<1>(at.s(), at.rate);
         RC_ASSERT(near(scaled.elastic * at.s(), force.elastic, 1e-13 * force.elastic));
@@ -141,7 +185,7 @@ TYPED_TEST(NormalLawTest, ScaledForceTimesItsScaleIsTheForce) {
 
 TYPED_TEST(NormalLawTest, LoadHasTheSignOfTheForce) {
     check_property([] {
-        const auto law = random_law<TypeParam>();
+        const auto law = random_landed_law<TypeParam>();
         const ContactState at;
         const auto f = law.force(at.s(), at.rate);
         // Where the parts nearly cancel, rounding decides the sign of either.
@@ -152,7 +196,7 @@ TYPED_TEST(NormalLawTest, LoadHasTheSignOfTheForce) {
 
 TYPED_TEST(NormalLawTest, LoadIsFiniteAtTouchdownAndPositiveOnTheWayIn) {
     check_property([] {
-        const auto law = random_law<TypeParam>();
+        const auto law = random_landed_law<TypeParam>();
         const double rate = *decades(1e-4, 1e1);
         RC_ASSERT(std::isfinite(law.load(0.0, rate)));
         RC_ASSERT(law.load(0.0, rate) >= 0);
@@ -162,7 +206,7 @@ TYPED_TEST(NormalLawTest, LoadIsFiniteAtTouchdownAndPositiveOnTheWayIn) {
 
 TYPED_TEST(NormalLawTest, DualDerivativesAreThoseOfDifferences) {
     check_property([] {
-        const auto law = random_law<TypeParam>();
+        const auto law = random_landed_law<TypeParam>();
         const ContactState at;
         using D = Dual<double, 2>;
         const auto f = law.template cast<D>().force(D::variable(at.s(), 0), D::variable(at.rate, 1)).total();

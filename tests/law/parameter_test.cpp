@@ -2,6 +2,7 @@
 #include "footfall/law/parameter.hpp"
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <set>
 #include <string_view>
@@ -40,19 +41,18 @@ TEST(LawParameters, NamesAreUniqueWithinTheirList) {
 }
 
 TEST(LawParameters, TheNamesOfTheScenariosStand) {
-    // Scenario files hold these names; a law that is renamed breaks them.
-    const std::set<std::string_view> normal{
-        "azad-featherstone",   "kuwabara-kono", "hunt-crossley", "marhefka-orin", "flores", "tsuji",
-        "lankarani-nikravesh", "falcon",        "hertz",         "linear"};
-    std::set<std::string_view> names;
-    for_each_law<NormalLaw>([&](const auto& law) { names.insert(name_of(NormalLaw(law))); });
-    EXPECT_EQ(names, normal);
-    names.clear();
-    for_each_law<FrictionLaw>([&](const auto& law) { names.insert(name_of(FrictionLaw(law))); });
-    EXPECT_EQ(names,
-              (std::set<std::string_view>{"none", "azad-featherstone", "azad-featherstone-passive", "linear",
-                                          "regularized-coulomb", "dahl", "lugre", "elasto-plastic", "bliman-sorine",
-                                          "seven-parameter", "reset-integrator", "haessig-friedland"}));
+    // Scenario files hold these names; a law that is renamed or taken away breaks them.
+    const auto expect_all = []<class Variant>(const Variant*, std::initializer_list<std::string_view> known) {
+        std::set<std::string_view> names;
+        for_each_law<Variant>([&](const auto& law) { names.insert(law.description.name); });
+        for (const std::string_view name : known) EXPECT_TRUE(names.contains(name)) << name;
+    };
+    expect_all(static_cast<const NormalLaw*>(nullptr),
+               {"azad-featherstone", "kuwabara-kono", "hunt-crossley", "marhefka-orin", "flores", "tsuji",
+                "lankarani-nikravesh", "falcon", "hertz", "linear"});
+    expect_all(static_cast<const FrictionLaw*>(nullptr),
+               {"none", "azad-featherstone", "azad-featherstone-passive", "linear", "regularized-coulomb", "dahl", "lugre", "elasto-plastic",
+                "bliman-sorine", "seven-parameter", "reset-integrator", "haessig-friedland"});
 }
 
 TEST(LawParameters, EveryMemberIsAParameterOnce) {
@@ -125,7 +125,7 @@ TEST(LawParameters, ARestitutionAboveOneIsRefusedInEveryLawThatTakesOne) {
             }
         }
     });
-    EXPECT_EQ(laws, 3);
+    EXPECT_GE(laws, 3);
 }
 
 TEST(LawParameters, EveryLossMayBeZeroAndNoSpringMayBe) {

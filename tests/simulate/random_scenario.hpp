@@ -15,6 +15,7 @@
 #include <fmt/core.h>
 
 #include "footfall/simulate/run.hpp"
+#include "tried_laws.hpp"
 
 namespace footfall::soak {
 
@@ -196,13 +197,19 @@ private:
             } else if (p.key == "exponent") {
                 value = general_ ? uniform(0, 1) : p.fallback.value();
             } else {
-                throw std::logic_error(fmt::format("no rule draws {} of {}", p.key, Law::description.name));
+                value = draw_by_unit(p);
             }
         }
         const double s = std::sqrt(depth_);
-        law.stiffness = 0.5 * energy / law.stored_energy(s);
+        const Touch<double> touch{s, speed_, {}};
+        const std::array<double, most_normal_states> none{};
+        const auto pair = [&] { return Pair<NormalLaw, NoFriction<>>(law, {}); };
+        const double stored = pair().held({Phase::slip}, touch, none).normal_spring;  // at a stiffness of 1
+        law.stiffness = 0;
+        const double rest = pair().held({Phase::slip}, touch, none).normal_spring;
+        law.stiffness = stored > rest ? 0.5 * energy / (stored - rest) : 1;
         if (!lossy) return;
-        const NormalForce<double> f = law.force(s, speed_);
+        const NormalForce<double> f = pair().normal_parts(touch, none);
         law.*lossy = loss * f.elastic / f.dissipative;
     }
 
@@ -281,9 +288,20 @@ private:
             } else if (p.key == "memory_time" || p.key == "rise_time") {
                 value = period_ * decades(-2, 2);
             } else {
-                throw std::logic_error(fmt::format("no rule draws {} of {}", p.key, Law::description.name));
+                value = draw_by_unit(p);
             }
         }
+    }
+    /// What no rule knows by its key: by its unit, about its natural size in this impact.
+    template <class Law>
+    double draw_by_unit(const Parameter<Law>& p) {
+        if (p.fallback && chance(0.3)) return *p.fallback;
+        if (p.may_be_zero() && chance(0.1)) return 0;
+        if (p.at_most_one) return uniform(0.02, 1);
+        if (p.unit_depends)
+            throw std::logic_error(fmt::format("no rule draws {} of {}, whose unit depends on other parameters", p.key,
+                                               Law::description.name));
+        return test::Scale{.mass = mass_, .length = depth_, .time = period_}.of(p.unit) * decades(-1, 1);
     }
 
     void draw_start(Simulation& s) {

@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "simulate/tried_laws.hpp"
+
 namespace footfall::test {
 namespace {
 
@@ -68,18 +70,21 @@ double dissipated(const Drive& run, double from, double to) {
 std::vector<FrictionLaw> all_friction_laws() {
     const double k = 1e5 / load;
     const double root = std::sqrt(static_depth());
-    return {NoFriction<>{},
-            AzadFeatherstoneFriction<>{{1e5 / root, 50 / root, 0.4, 0.5}},
-            LinearFriction<>{{1e5, 50, 0.4, 0}},
-            LinearFriction<>{{1e5, 0, 0.4, 0}},
-            RegularizedCoulombFriction<>{0.4, 1e-4},
-            DahlFriction<>{k, 0.4},
-            LuGreFriction<>{k, 5, 0.6, 0.4, 1e-3, 0.5},
-            ElastoPlasticFriction<>{k, 5, 0.6, 0.4, 1e-3, 0.5, 0.7},
-            BlimanSorineFriction<>{0.4, 0.3, 4e-5, 0.25},
-            SevenParameterFriction<>{k, 0.4, 0.2, 1e-3, 1e-3, 0.1, 0.5},
-            ResetIntegratorFriction<>{k, 5, 4e-5, 0.5},
-            HaessigFriedlandFriction<>{k, 6e-5}};
+    const std::vector<FrictionLaw> all{NoFriction<>{},
+                                       AzadFeatherstoneFriction<>{{1e5 / root, 50 / root, 0.4, 0.5}},
+                                       LinearFriction<>{{1e5, 50, 0.4, 0}},
+                                       LinearFriction<>{{1e5, 0, 0.4, 0}},
+                                       RegularizedCoulombFriction<>{0.4, 1e-4},
+                                       DahlFriction<>{k, 0.4},
+                                       LuGreFriction<>{k, 5, 0.6, 0.4, 1e-3, 0.5},
+                                       ElastoPlasticFriction<>{k, 5, 0.6, 0.4, 1e-3, 0.5, 0.7},
+                                       BlimanSorineFriction<>{0.4, 0.3, 4e-5, 0.25},
+                                       SevenParameterFriction<>{k, 0.4, 0.2, 1e-3, 1e-3, 0.1, 0.5},
+                                       ResetIntegratorFriction<>{k, 5, 4e-5, 0.5},
+                                       HaessigFriedlandFriction<>{k, 6e-5}};
+    // A path of 0.2 mm at 2 Hz under the load.
+    const Scale scale{.mass = load * 0.5 * 0.5 / 4e-5, .length = 4e-5, .time = 0.5, .number = 0.4};
+    return completed<FrictionLaw>(all, scale);
 }
 
 std::string_view name(const FrictionLaw& law) { return name_of(law); }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -49,6 +51,19 @@ template <class... Laws>
 constexpr void prepare_law(std::variant<Laws...>& law) {
     std::visit([](auto& l) { prepare_law(l); }, law);
 }
+
+/// The laws of a variant for which `Keeps<Law>` is true, in their order, again as a variant.
+template <class Laws, template <class> class Keeps>
+struct LawsThatKeep;
+template <class... Laws, template <class> class Keeps>
+struct LawsThatKeep<std::variant<Laws...>, Keeps> {
+    template <class... Kept>
+    static std::variant<Kept...> listed(const std::tuple<Kept...>&);
+    using type = decltype(listed(
+        std::tuple_cat(std::declval<std::conditional_t<Keeps<Laws>::value, std::tuple<Laws>, std::tuple<>>>()...)));
+};
+template <class Laws, template <class> class Keeps>
+using LawsThat = typename LawsThatKeep<Laws, Keeps>::type;
 
 /// The scalar of a law, or of the first of a variant of laws.
 template <class Law>

@@ -56,7 +56,7 @@ public:
 
     /// The natural size of state i in its own unit, for a contact that reaches the root depth s [m^0.5].
     [[nodiscard]] double state_size(int i, const S& s) const noexcept {
-        if (i < normal_state_count()) return of_normal([&](const auto& part) { return part.state_size(i); });
+        if (i < normal_state_count()) return of_normal([&](const auto& part) { return part.state_size(i, s); });
         const S elastic = elastic_force(s);
         return of_friction([&](const auto& part) { return part.state_size(i - normal_state_count(), s, elastic); });
     }
@@ -276,6 +276,7 @@ public:
                                 std::span<S> x) const noexcept {
         Jump<S> j{mode};
         if (guard == depth_guard) {
+            if (normal_state_count() > 0) let_go(t, x, j);
             j.mode = {Phase::flight};
             of_friction([&](const auto& part) { part.part(friction_states(x)); });
             j.report(EventKind::recovered);
@@ -433,6 +434,12 @@ private:
         const Load<S> now = load_at(t, x);
         j.taken[by_clutch] +=
             of_friction([&](const auto& part) { return part.enter_slip(t, now, friction_states(x)); });
+    }
+
+    /// What the states of the normal law still hold where the depth has ended is lost in the law itself.
+    void let_go(const Touch<S>& t, States x, Jump<S>& j) const noexcept {
+        j.taken[by_normal_damper] +=
+            of_normal([&](const auto& part) { return part.stored_energy(t.root_depth, normal_states(x)); });
     }
 
     void unload(const Touch<S>& t, std::span<S> x, Jump<S>& j) const noexcept {

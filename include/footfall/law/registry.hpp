@@ -1,5 +1,6 @@
-// Every law there is. To add one: write its file, add it here.
-// The scenario's names, the command line's help, the schema and the typed tests all follow this list.
+// Every law there is. To add one: write its file, include it here, and put it into the list of its kind.
+// All else follows the two lists: scenario, schema, help, output, Python classes, typed tests and the soak.
+// Who needs only laws of some kind takes them from here by `LawsThat` (erased.hpp).
 #pragma once
 
 #include <cstddef>
@@ -36,32 +37,40 @@
 
 namespace footfall {
 
+// One law a line.
+// clang-format off
 template <class S>
-using NormalLawOver = std::variant<AzadFeatherstoneNormal<S>, KuwabaraKonoNormal<S>, HuntCrossleyNormal<S>,
-                                   MarhefkaOrinNormal<S>, LankaraniNikraveshNormal<S>, FloresNormal<S>, FalconNormal<S>,
-                                   TsujiNormal<S>, HertzNormal<S>, LinearNormal<S>>;
+using NormalLawOver = std::variant<
+    AzadFeatherstoneNormal<S>,
+    KuwabaraKonoNormal<S>,
+    HuntCrossleyNormal<S>,
+    MarhefkaOrinNormal<S>,
+    LankaraniNikraveshNormal<S>,
+    FloresNormal<S>,
+    FalconNormal<S>,
+    TsujiNormal<S>,
+    HertzNormal<S>,
+    LinearNormal<S>
+>;
+
+template <class S>
+using FrictionLawOver = std::variant<
+    NoFriction<S>,
+    AzadFeatherstoneFriction<S>,
+    AzadFeatherstonePassiveFriction<S>,
+    LinearFriction<S>,
+    RegularizedCoulombFriction<S>,
+    DahlFriction<S>,
+    LuGreFriction<S>,
+    ElastoPlasticFriction<S>,
+    BlimanSorineFriction<S>,
+    SevenParameterFriction<S>,
+    ResetIntegratorFriction<S>,
+    HaessigFriedlandFriction<S>
+>;
+// clang-format on
+
 using NormalLaw = NormalLawOver<double>;
-
-/// The friction laws with internal states (friction/rate_friction.hpp).
-template <class S>
-using RateFrictionLawOver = std::variant<RegularizedCoulombFriction<S>, DahlFriction<S>, LuGreFriction<S>,
-                                         ElastoPlasticFriction<S>, BlimanSorineFriction<S>, SevenParameterFriction<S>,
-                                         ResetIntegratorFriction<S>, HaessigFriedlandFriction<S>>;
-
-/// The friction laws with one bristle and a clutch (friction/spring_damper_clutch.hpp), and none.
-template <class S>
-using ClutchFrictionLawOver =
-    std::variant<NoFriction<S>, AzadFeatherstoneFriction<S>, AzadFeatherstonePassiveFriction<S>, LinearFriction<S>>;
-using ClutchFrictionLaw = ClutchFrictionLawOver<double>;
-
-namespace detail {
-template <class... First, class... Second>
-std::variant<First..., Second...> joined(const std::variant<First...>*, const std::variant<Second...>*);
-}  // namespace detail
-
-template <class S>
-using FrictionLawOver = decltype(detail::joined(static_cast<const ClutchFrictionLawOver<S>*>(nullptr),
-                                                static_cast<const RateFrictionLawOver<S>*>(nullptr)));
 using FrictionLaw = FrictionLawOver<double>;
 
 /// The law of one contact, whichever it is.

@@ -119,7 +119,7 @@ public:
         // What decays for long is set to zero before it is denormal, which would be slow.
         constexpr double nothing = 1e-150;
         for (S& x : y)
-            if (std::abs(value_of(x)) < Value(nothing)) x = S(0);
+            if (std::abs(value_of(x)) < Value(nothing)) x -= S(value_of(x));  // what it carries besides stays
     }
 
     /// What the states of contacts in flight have become after dt.

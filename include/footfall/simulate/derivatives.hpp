@@ -30,7 +30,7 @@ public:
             for (int c = first; c < last; ++c) point[c] = Direction::variable(y[c], c - first);
             dual_.evaluate(point, rate);
             for (int c = first; c < last; ++c) {
-                for (int r = 0; r < n; ++r) J(r, c) = rate[r].gradient[static_cast<std::size_t>(c - first)];
+                for (int r = 0; r < n; ++r) J(r, c) = value_of(rate[r].gradient[static_cast<std::size_t>(c - first)]);
                 point[c] = Direction(y[c]);
             }
             cost += directions;
@@ -46,13 +46,14 @@ public:
         const int n = hybrid.motion_size();
         for (int c = 0; c < n; ++c) point[c].gradient[0] = v[c];
         dual_.evaluate(point, rate);
-        for (int c = 0; c < n; ++c) Jv[c] = rate[c].gradient[0];
+        for (int c = 0; c < n; ++c) Jv[c] = value_of(rate[c].gradient[0]);
         return directions;
     }
 
 private:
     static constexpr int directions = 8;  // at a time
-    using Direction = Dual<ValueOf<typename Hybrid::S>, directions>;
+    /// Over the scalar of the equations, so that a law's parameters stay what they are; its values are asked for.
+    using Direction = Dual<typename Hybrid::S, directions>;
     using DualHybrid = decltype(std::declval<Hybrid>().template cast<Direction>());
     using DualState = typename DualHybrid::State;
 

@@ -28,6 +28,7 @@
 #pragma once
 
 #include "footfall/law/friction/rate_friction.hpp"
+#include "footfall/math/value_of.hpp"
 
 namespace footfall {
 
@@ -60,7 +61,7 @@ struct BlimanSorineFriction {
     }
 
     [[nodiscard]] double state_size(int i) const noexcept {
-        return static_cast<double>(i < 2 ? fast_share * slow_length : slow_length);
+        return static_cast<double>(value_of(i < 2 ? fast_share * slow_length : slow_length));
     }
 
     template <class T>

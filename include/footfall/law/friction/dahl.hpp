@@ -15,6 +15,7 @@
 #pragma once
 
 #include "footfall/law/friction/rate_friction.hpp"
+#include "footfall/math/value_of.hpp"
 
 namespace footfall {
 
@@ -39,8 +40,8 @@ struct DahlFriction {
     }
 
     [[nodiscard]] double state_size(int) const noexcept {
-        const double reach = static_cast<double>(coefficient / stiffness);
-        return reach > 0 ? reach : 1 / static_cast<double>(stiffness);
+        const double reach = static_cast<double>(value_of(coefficient / stiffness));
+        return reach > 0 ? reach : 1 / static_cast<double>(value_of(stiffness));
     }
 
     template <class T>

@@ -35,6 +35,7 @@
 #include <numbers>
 
 #include "footfall/law/friction/stribeck_bristle.hpp"
+#include "footfall/math/value_of.hpp"
 
 namespace footfall {
 
@@ -92,7 +93,9 @@ struct ElastoPlasticFriction {
         return phase == Phase::slip ? Phase::stick : Phase::slip;
     }
 
-    [[nodiscard]] double state_size(int) const noexcept { return static_cast<double>(kinetic_coefficient / stiffness); }
+    [[nodiscard]] double state_size(int) const noexcept {
+        return static_cast<double>(value_of(kinetic_coefficient / stiffness));
+    }
 
     /// As LuGre's.
     [[nodiscard]] bool clutch_only_takes() const noexcept { return !(damping > S(0)); }

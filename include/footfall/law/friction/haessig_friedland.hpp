@@ -28,6 +28,7 @@
 #include <cstdint>
 
 #include "footfall/law/friction/rate_friction.hpp"
+#include "footfall/math/value_of.hpp"
 
 namespace footfall {
 
@@ -78,7 +79,7 @@ struct HaessigFriedlandFriction {
     }
 
     [[nodiscard]] double state_size(int i) const noexcept {
-        return i == static_cast<int>(counter) ? 1 : static_cast<double>(reach);
+        return i == static_cast<int>(counter) ? 1 : static_cast<double>(value_of(reach));
     }
 
     template <class T>

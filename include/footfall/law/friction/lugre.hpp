@@ -21,6 +21,7 @@
 #pragma once
 
 #include "footfall/law/friction/stribeck_bristle.hpp"
+#include "footfall/math/value_of.hpp"
 
 namespace footfall {
 
@@ -50,7 +51,9 @@ struct LuGreFriction {
         return S(0.5) * stiffness * vector_at<S>(x).squaredNorm();
     }
 
-    [[nodiscard]] double state_size(int) const noexcept { return static_cast<double>(kinetic_coefficient / stiffness); }
+    [[nodiscard]] double state_size(int) const noexcept {
+        return static_cast<double>(value_of(kinetic_coefficient / stiffness));
+    }
 
     /// The term of sigma_1 in the clutch has no sign.
     [[nodiscard]] bool clutch_only_takes() const noexcept { return !(damping > S(0)); }

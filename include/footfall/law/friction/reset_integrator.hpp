@@ -23,6 +23,7 @@
 #pragma once
 
 #include "footfall/law/friction/rate_friction.hpp"
+#include "footfall/math/value_of.hpp"
 
 namespace footfall {
 
@@ -63,7 +64,7 @@ struct ResetIntegratorFriction {
         return Phase::slip;
     }
 
-    [[nodiscard]] double state_size(int) const noexcept { return static_cast<double>(reach); }
+    [[nodiscard]] double state_size(int) const noexcept { return static_cast<double>(value_of(reach)); }
 
     /// With stiction it gives back what it let go with, where it takes hold again.
     [[nodiscard]] bool clutch_only_takes() const noexcept { return !(stiction > S(0)); }

@@ -39,6 +39,7 @@
 #include <limits>
 
 #include "footfall/law/friction/rate_friction.hpp"
+#include "footfall/math/value_of.hpp"
 
 namespace footfall {
 
@@ -104,13 +105,13 @@ struct SevenParameterFriction {
     [[nodiscard]] double state_size(int i) const noexcept {
         switch (static_cast<std::size_t>(i)) {
             case lagged_speed:
-                return static_cast<double>(stribeck_velocity);
+                return static_cast<double>(value_of(stribeck_velocity));
             case at_hold:
-                return static_cast<double>(kinetic_coefficient);
+                return static_cast<double>(value_of(kinetic_coefficient));
             case rest:
-                return static_cast<double>(rise_time);
+                return static_cast<double>(value_of(rise_time));
             default:
-                return static_cast<double>(kinetic_coefficient / stiffness);
+                return static_cast<double>(value_of(kinetic_coefficient / stiffness));
         }
     }
 

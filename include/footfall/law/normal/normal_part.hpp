@@ -4,7 +4,7 @@
 //   states                              how many
 //   force<Over>(s, zdot, x), load(s, zdot, x), stored_energy(s, x)   as without states
 //   land(zdot, x)                       writes the states of an impact that begins at zdot [m/s]
-//   state_size(i)                       the natural size of state i in its own unit, > 0
+//   state_size(i) or state_size(i, s)   the natural size of state i in its own unit, > 0, where s is reached
 //   rates(s, zdot, x, out)              optional: how they change; without it they stay as they are
 // What moving states take from the spring is in NormalForce::relaxation.
 #pragma once
@@ -30,6 +30,15 @@ struct NormalPart {
     [[nodiscard]] static constexpr int states() noexcept {
         if constexpr (HasNormalStates<Law>) {
             return Law::states;
+        } else {
+            return 0;
+        }
+    }
+
+    /// How many of them change while an impact lasts: all or none.
+    [[nodiscard]] static constexpr int moving_states() noexcept {
+        if constexpr (requires(const Law l, const S& s, States x, std::span<S> out) { l.rates(s, s, x, out); }) {
+            return states();
         } else {
             return 0;
         }
@@ -64,8 +73,10 @@ struct NormalPart {
     void land([[maybe_unused]] const S& z_rate, [[maybe_unused]] std::span<S> x) const noexcept {
         if constexpr (HasNormalStates<Law>) law.land(z_rate, x);
     }
-    [[nodiscard]] double state_size([[maybe_unused]] int i) const noexcept {
-        if constexpr (HasNormalStates<Law>) {
+    [[nodiscard]] double state_size([[maybe_unused]] int i, [[maybe_unused]] const S& s) const noexcept {
+        if constexpr (requires { law.state_size(i, s); }) {
+            return law.state_size(i, s);
+        } else if constexpr (HasNormalStates<Law>) {
             return law.state_size(i);
         } else {
             return 1;

@@ -51,10 +51,10 @@ struct SpringAlone : detail::StatesOf<Law> {
     {
         law.land(z_rate, x);
     }
-    [[nodiscard]] double state_size(int i) const noexcept
+    [[nodiscard]] double state_size(int i, const S& s) const noexcept
         requires HasNormalStates<Law>
     {
-        return law.state_size(i);
+        return NormalPart<Law>{law}.state_size(i, s);
     }
 
     template <class T>
