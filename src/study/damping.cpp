@@ -1,13 +1,13 @@
 #include "footfall/study/damping.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <string>
 
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
-
 
 namespace footfall {
 namespace {

@@ -80,7 +80,8 @@ struct Moved {
     /// Both rounds.
     Response<double> respond() {
         const Touch<double> t = touch();
-        Response<double> r = law.respond(mode, t, x, rates);
+        Response<double> r;
+        law.respond(mode, t, x, rates, r);
         if (r.asks_for_load_rate) law.complete(mode, t, x, law.load_rate(t, x, path.z_accel), rates, r);
         return r;
     }
@@ -148,7 +149,8 @@ TYPED_TEST(EveryFrictionLaw, TurningThePathTurnsTheAnswer) {
 void gives_nothing_without_a_load(Moved& m) {
     RC_PRE(m.mode.loaded());
     const Touch<double> t = m.touch();
-    const Response<double> r = m.law.respond({Phase::recovering}, t, m.x, m.rates);
+    Response<double> r;
+    m.law.respond({Phase::recovering}, t, m.x, m.rates, r);
     RC_ASSERT(r.push.friction.norm() == 0);
     RC_ASSERT(r.push.spin_torque == 0);
     RC_ASSERT(r.push.rolling_torque.norm() == 0);
@@ -191,7 +193,8 @@ void slopes_are_exact(Moved& m) {
         t.depth_rate = t.depth_rate * (T(1) - by);
         std::vector<T> x(m.x.begin(), m.x.end()), out(m.x.size());
         for (T& state : x) state = state * factor;
-        const Response<T> r = law.respond(m.mode, t, x, out);
+        Response<T> r;
+        law.respond(m.mode, t, x, out, r);
         for (const T& value : {r.push.friction.x(), r.push.friction.y(), r.push.spin_torque, r.push.rolling_torque.x(),
                                r.push.rolling_torque.y(), r.power[by_tangential_damper]})
             out.push_back(value);

@@ -109,6 +109,7 @@ TYPED_TEST(NormalLawTest, TheLawOfAnImpactComputesItsForce) {
         RC_ASSERT(computed.force(at.s(), at.rate).elastic == law.force(at.s(), at.rate).elastic);
         RC_ASSERT(computed.force(at.s(), at.rate).dissipative == law.force(at.s(), at.rate).dissipative);
     });
+}
 
 // A law may be told of an impact by a member of its own, and by the states that it declares.
 TYPED_TEST(NormalLawTest, IsTheSameInTheStatesOfAnImpactAsWhereItKeepsThatItself) {
@@ -126,7 +127,8 @@ TYPED_TEST(NormalLawTest, IsTheSameInTheStatesOfAnImpactAsWhereItKeepsThatItself
     }
 }
 
-// What its states take out of what is stored is what the depth has put in beyond the growth, whatever the states are.
+// What its states take out of what is stored is what the depth has put in beyond the growth, whatever the states
+// are.
 TYPED_TEST(NormalLawTest, TheLedgerClosesWhereItsStatesMove) {
     if constexpr (NormalPart<TypeParam>::moving_states() > 0) {
         check_property([] {
@@ -233,9 +235,9 @@ TEST(AzadFeatherstoneNormal, GivesTheForceComputedByHand) {
 }
 
 TEST(AzadFeatherstoneNormal, StoresTheKineticEnergyOfAHertzianImpactAtItsDeepest) {
-    // Johnson, Contact Mechanics, section 11.4: without damping a ball is stopped at delta = (15 m V^2 / (16 sqrt(R)
-    // E*))^(2/5). A steel ball, R = 1 cm, m = 32.88 g, V = 2 m/s, on steel (E* = 210/1.82 GPa): delta = 40.88 um; m
-    // V^2/2 = 65.76 mJ.
+    // Johnson, Contact Mechanics, section 11.4: without damping a ball is stopped at delta = (15 m V^2 / (16
+    // sqrt(R) E*))^(2/5). A steel ball, R = 1 cm, m = 32.88 g, V = 2 m/s, on steel (E* = 210/1.82 GPa): delta
+    // = 40.88 um; m V^2/2 = 65.76 mJ.
     const AzadFeatherstoneNormal<> hertz{4.0 / 3.0 * 210e9 / 1.82 * 0.1, 0};
     EXPECT_NEAR(hertz.stored_energy(std::sqrt(4.088142898993885e-5)), 65.76e-3, 1e-12);
 }

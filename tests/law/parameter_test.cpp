@@ -50,9 +50,10 @@ TEST(LawParameters, TheNamesOfTheScenariosStand) {
     expect_all(static_cast<const NormalLaw*>(nullptr),
                {"azad-featherstone", "kuwabara-kono", "hunt-crossley", "marhefka-orin", "flores", "tsuji",
                 "lankarani-nikravesh", "falcon", "hertz", "linear"});
-    expect_all(static_cast<const FrictionLaw*>(nullptr),
-               {"none", "azad-featherstone", "azad-featherstone-passive", "linear", "regularized-coulomb", "dahl", "lugre", "elasto-plastic",
-                "bliman-sorine", "seven-parameter", "reset-integrator", "haessig-friedland"});
+    expect_all(
+        static_cast<const FrictionLaw*>(nullptr),
+        {"none", "azad-featherstone", "azad-featherstone-passive", "linear", "regularized-coulomb", "dahl", "lugre",
+         "elasto-plastic", "bliman-sorine", "seven-parameter", "reset-integrator", "haessig-friedland"});
 }
 
 TEST(LawParameters, EveryMemberIsAParameterOnce) {
