@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Core>
@@ -68,6 +69,9 @@ public:
         const Value five = fives.abs().template maxCoeff<Eigen::PropagateNaN>();
         const Value three = threes.abs().template maxCoeff<Eigen::PropagateNaN>();
         if (five == Value(0)) return Value(0);
+        // Where a square overflows, the quotient would be zero.
+        const Value most = sqrt(std::numeric_limits<Value>::max()) / Value(2);
+        if (!(five < most && three < most)) return std::numeric_limits<Value>::infinity();
         return abs(h_) * five * five / sqrt(five * five + Value(0.01) * three * three);
     }
 

@@ -85,6 +85,13 @@ public:
     void fix_step(const Value& size) { fixed_step_ = size; }
     /// Takes every step by the implicit method: for measuring it where nothing is stiff. Before `run`.
     void stay_implicit() { method_.stay_implicit(); }
+    /// The next `run` is that of a new solver, whatever was before; what was spent counts anew.
+    void forget() {
+        method_.forget();
+        cost_ = {};
+        next_look_ = 0;
+        waiting_ = false;
+    }
 
     /// From y, in the modes that the system is in, until the clock shows `end`.
     void run(State y, const Value& end) {
@@ -326,6 +333,10 @@ private:
     }
     // Guards that fall from where the step starts: there is no step. The place moves with the inputs all the same.
     void meet_at_start(const Crossing& crossing, const Value& whole) {
+        if (crossing.first() == end_of_run()) {  // nothing but rounding is left
+            y_[system_.clock()] = S(end_);
+            return;
+        }
         if constexpr (!std::floating_point<S>) {
             if (crossing.slope < Value(0))
                 y_ += method_.start_rate() * S(moving(S(-guards_[crossing.first()])) / S(crossing.slope) * whole);
