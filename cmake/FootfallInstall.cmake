@@ -3,7 +3,8 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/footfall)
 
-install(TARGETS footfall EXPORT footfall_targets)
+install(TARGETS footfall footfall_host EXPORT footfall_targets)
+install(FILES include/footfall.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS footfall_cli)
 install(DIRECTORY include/footfall ${PROJECT_BINARY_DIR}/include/footfall
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
