@@ -242,7 +242,7 @@ public:
 private:
     static constexpr double tiny = 1e-300;
     /// Of the tolerance, for the error of one step of the method: a host's step takes some, and its events.
-    static constexpr double step_share = 0.1;
+    static constexpr double step_share = 0.03;
     static constexpr double eps() { return static_cast<double>(std::numeric_limits<Value>::epsilon()); }
     static std::size_t at(int i) { return static_cast<std::size_t>(i); }
     static int contact(int guard) noexcept { return guard / guards_per_group; }

@@ -94,8 +94,8 @@ public:
     }
 
     /// From y, in the modes that the system is in, until the clock shows `end`.
-    void run(State y, const Value& end) {
-        y_ = std::move(y);
+    void run(const State& y, const Value& end) {
+        y_ = y;
         end_ = end;
         const auto guards = static_cast<Eigen::Index>(guard_count());
         guards_ = lowest_ = scratch_guards_ = Guards::Ones(guards);
@@ -203,13 +203,13 @@ private:
 
     void advance() {
         const Value h = accepted_step();
-        const Guards end_guards = scratch_guards_;  // those of finish()
-        const Crossing crossing = crossings_.find(end_guards);
+        end_guards_ = scratch_guards_;  // those of finish()
+        const Crossing crossing = crossings_.find(end_guards_);
         if (crossing && !(crossing.theta > Value(0))) {
             meet_at_start(crossing, h);
             return;
         }
-        State y = method_.end();
+        State& y = next_ = method_.end();
         if (crossing && !locate(crossing, h, y)) {  // the shorter step did not converge: look again from nearer
             if (fixed_step_ > Value(0)) throw std::runtime_error("an event cannot be located in steps of a fixed size");
             step_ = Value(0.5) * crossing.theta * h;
@@ -222,7 +222,7 @@ private:
         set_clock(y, ends);
         system_.stepped(step_);
         system_.tidy(y, from_, to_);
-        y_ = std::move(y);
+        std::swap(y_, y);
         ++cost_.steps;
         if (method_.implicit()) ++cost_.stiff_steps;
         for (Watcher<State>* w : watchers_) w->reach(y_);
@@ -233,7 +233,7 @@ private:
             }
             return;
         }
-        guards_ = end_guards;
+        guards_ = end_guards_;
         rearm();
         method_.advance(y_, weight_);
         lowest_ = Guards::Constant(lowest_.size(), std::numeric_limits<Value>::max());
@@ -475,10 +475,11 @@ private:
     SolverCost cost_;
     std::int64_t look_every_ = 4096, next_look_ = 0;
 
-    State y_, scratch_;
+    State y_, scratch_, next_;
     ValuesOf<State> weight_;
-    Guards guards_, lowest_, scratch_guards_;  // at the step's start; the least over its stages; of the last evaluation
-    std::array<Guards, 2> looked_;             // at the looks inside an explicit step
+    Guards guards_, lowest_, scratch_guards_,
+        end_guards_;                // at the step's start; the least over its stages; of the last evaluation
+    std::array<Guards, 2> looked_;  // at the looks inside an explicit step
     std::size_t looks_ = 0;
     CrossingSearch<Solver> crossings_;
     // A guard that has just been handled starts on its zero; it is looked at again once it has been positive.
