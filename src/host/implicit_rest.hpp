@@ -152,7 +152,6 @@ private:
         const auto pressed = [&](double impulse) {
             const Touch<double> t = touch_at_end(i, without + d * impulse, rest);
             if (!(t.root_depth > 0)) return 0.0;
-            if (stops_) return d > 0 ? std::max(-without / d, 0.0) : 0.0;
             return std::max(rest * hybrid_.law(i).normal_force(t, hybrid_.states(y, i)), 0.0);
         };
         // The force falls as the impulse grows, so that the two meet once.
@@ -162,10 +161,17 @@ private:
             const double middle = 0.5 * (low + high);
             (pressed(middle) > middle ? low : high) = middle;
         }
-        const double change = 0.5 * (low + high) - impulse_[k];
+        const double change = (stops_ ? stopping_impulse(i, without, rest) : 0.5 * (low + high)) - impulse_[k];
         if (!std::isfinite(change)) return 0;
         add(k, change);
         return change;
+    }
+
+    /// The normal impulse after which contact i is no deeper than it was. Its velocity is v at the end without it.
+    [[nodiscard]] double stopping_impulse(int i, double v, double rest) const {
+        const double d = delassus(normal(i), normal(i)), depth = depth_[static_cast<std::size_t>(i)];
+        const double least = 0.5 * system_.step().acceleration[normal(i)] * rest + std::min(depth, 0.0) / rest;
+        return d > 0 ? std::max((least - v) / d, 0.0) : 0.0;
     }
 
     /// Friction of contact i: the mean force at the velocity that it would have without, less where that would turn the
@@ -211,7 +217,9 @@ private:
         const Law& law = hybrid_.law(i);
         const std::span<double> x = hybrid_.states(y, i);
         const Mode mode = law.mode_at({friction_[static_cast<std::size_t>(i)].phase}, t, x);
-        if (!mode.loaded())  // the load has gone: so have states that are over it
+        // With the load states go that are over it. A contact that was stopped begins anew: no load goes with its
+        // impulse.
+        if (!mode.loaded() || stops_)
             hybrid_.book(y, i, law.cross(Law::load_guard, {Phase::slip}, t, 0, false, x).taken);
         system_.set_mode(i, mode);
     }

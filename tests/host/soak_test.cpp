@@ -39,7 +39,8 @@ TEST(HostSoak, ClosesTheAccountOfEveryStep) {
             ASSERT_TRUE(std::isfinite(step.residual)) << "seed " << seed << ", step " << s;
             ASSERT_LE(std::abs(step.residual), set.options().tolerance * step.energy_scale)
                 << "seed " << seed << ", step " << s;
-            ASSERT_TRUE(std::isfinite(step.unresolved_loss)) << "seed " << seed << ", step " << s;
+            // What an implicit end makes, where it lifts what it carries, is not beyond all that there is.
+            ASSERT_GE(step.unresolved_loss, -2 * step.energy_scale) << "seed " << seed << ", step " << s;
             in_contact += step.evaluations > 0 ? 1 : 0;
             unresolved += step.unresolved_time > 0 ? 1 : 0;
             host.move(dt, step.impulse, step.double_impulse);
