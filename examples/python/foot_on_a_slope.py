@@ -46,7 +46,7 @@ class Foot:
         self.x, self.v, self.R, self.L = x, v, R, L  # L: the angular momentum
 
     def seen_by_contacts(self):
-        """J of the contact points, M^-1, velocity and free acceleration of the foot, then what the contacts are to know."""
+        """J, M^-1, velocity and free acceleration of the foot, then what the contacts are to know."""
         arms = centers @ self.R.T
         inverse = np.zeros((6, 6))
         inverse[:3, :3] = np.eye(3) / mass
@@ -65,7 +65,8 @@ class Foot:
         J, inverse, _, free, *_ = seen
         push, shift = J.T @ impulse.ravel(), inverse @ J.T @ double_impulse.ravel()
         way = dt * velocity + 0.5 * dt**2 * free + shift
-        return Foot(self.x + way[:3], self.v + dt * gravity + push[:3] / mass, turned(self.R, way[3:]), self.L + push[3:])
+        v = self.v + dt * gravity + push[:3] / mass
+        return Foot(self.x + way[:3], v, turned(self.R, way[3:]), self.L + push[3:])
 
     def halfway_to(self, other):
         turn = self.R.T @ other.R
@@ -121,5 +122,6 @@ exact = footfall.run(
 print(f"{f'at {1e3 * dt:g} ms':20}  one pass  two passes   exact")
 print(f"{'x':18}{1e3 * once.x[0]:12.3f}{1e3 * twice.x[0]:12.3f}{1e3 * exact.final.position[0]:12.3f} mm")
 for channel in CHANNELS:
-    print(f"{channel:18}{1e3 * one[channel]:12.3f}{1e3 * two[channel]:12.3f}{1e3 * getattr(exact.energy, channel):12.3f} mJ")
+    right = getattr(exact.energy, channel)
+    print(f"{channel:18}{1e3 * one[channel]:12.3f}{1e3 * two[channel]:12.3f}{1e3 * right:12.3f} mJ")
 print(f"{'account misses':18}{1e3 * lost_once:12.3f}{1e3 * lost_twice:12.3f}{0:12.3f} mJ")

@@ -99,15 +99,15 @@ class ContactSet:
     """Contacts in the loop of a simulator of your own, their host.
 
     A force that is held over a step of a millisecond makes energy. A set integrates the contacts' own equations inside
-    the step, with the host's effective mass and free acceleration frozen: touchdown, stick, slip and lift-off are located
-    within it. The host gets the impulse of each contact, and the double impulse, which its positions need. With the
-    velocities u, the mass matrix M and J from u to the velocities of the contact points::
+    the step, with the host's effective mass and free acceleration frozen: touchdown, stick, slip and lift-off are
+    located within it. The host gets the impulse of each contact, and the double impulse, which its positions need. With
+    the velocities u, the mass matrix M and J from u to the velocities of the contact points::
 
         u += dt * a_free + M^-1 J^T impulse
         q += dt * u_before + dt**2 / 2 * a_free + M^-1 J^T double_impulse
 
-    Each contact has a frame of its own: two tangents, which you choose, and the ground's normal. A set can be copied and
-    pickled; the same states, phases and arguments give the same step, bit for bit.
+    Each contact has a frame of its own: two tangents, which you choose, and the ground's normal. A set can be copied
+    and pickled; the same states, phases and arguments give the same step, bit for bit.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ class ContactSet:
     >>> step = contacts.step(1e-3, depth=[-5e-4], velocity=[[0, 0, -1]], free_acceleration=[[0, 0, -9.81]],
     ...                      delassus=np.eye(3))
     >>> step.events[0].kind, round(step.events[0].time, 6)
-    ('touchdown', 0.000498)
+    ('touchdown', 0.000499)
     """
 
     __slots__ = ("_laws", "_max_evaluations", "_set", "_tolerance")
@@ -142,7 +142,8 @@ class ContactSet:
         self, laws: Iterable[ContactLaw], *, tolerance: float = 1e-6, max_evaluations: int = 20_000
     ) -> None:
         if isinstance(laws, (str, bytes)) or not isinstance(laws, Iterable):
-            raise TypeError(f"laws: a ContactLaw for each contact is wanted, in a list, not {_arguments.described(laws)}")
+            said = _arguments.described(laws)
+            raise TypeError(f"laws: a ContactLaw for each contact is wanted, in a list, not {said}")
         self._laws = tuple(laws)
         for i, law in enumerate(self._laws):
             if not isinstance(law, ContactLaw):
@@ -222,8 +223,8 @@ class ContactSet:
         frame_spin
             How fast each frame turns about its normal [rad/s], shape (n,): bristles keep still in the ground.
         radius, spin, rolling
-            Of the spheres [m], shape (n,), about the normal [rad/s], shape (n,), and in the plane [rad/s], shape (n, 2):
-            for laws whose force depends on how a sphere turns.
+            Of the spheres [m], shape (n,), about the normal [rad/s], shape (n,), and in the plane [rad/s], shape
+            (n, 2): for laws whose force depends on how a sphere turns.
 
         Raises
         ------

@@ -66,7 +66,7 @@ HostRun run_host(LinearHost host, ContactSet set, double dt, double end) {
 }
 
 class PaperBall : public ::testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(HostSteps, PaperBall, ::testing::Values(1e-4, 1e-3, 2e-3, 5e-3));
+INSTANTIATE_TEST_SUITE_P(HostSteps, PaperBall, ::testing::Values(1e-4, 5e-4, 1e-3, 2e-3, 5e-3));
 
 TEST_P(PaperBall, HasTheEnergiesTheEventsAndTheRestitutionOfTheLibrarysOwnRun) {
     Simulation simulation =
