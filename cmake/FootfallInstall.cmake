@@ -5,7 +5,8 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/footfall)
 
 # The law's targets stand in a file of their own: whoever asks for the law alone needs nothing else.
 install(TARGETS footfall_law EXPORT footfall_law_targets)
-install(TARGETS footfall_core footfall_study footfall_io footfall EXPORT footfall_targets)
+install(TARGETS footfall_core footfall_host footfall_study footfall_io footfall EXPORT footfall_targets)
+install(FILES include/footfall.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS footfall_cli)
 install(DIRECTORY include/footfall ${PROJECT_BINARY_DIR}/include/footfall
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}

@@ -5,7 +5,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 
-layers="math eigen solve material law body energy surface plant simulate study io"
+layers="math eigen solve material law body energy surface plant simulate host study io"
 
 find include/footfall src \( -name '*.hpp' -o -name '*.cpp' -o -name '*.in' \) | sort | xargs awk -v layers="$layers" '
     BEGIN {

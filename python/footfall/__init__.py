@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from footfall import figures, laws, paper, plot, studies
     from footfall._core import __version__
     from footfall.contact import FLIGHT, PHASES, RECOVERING, SLIP, STICK, ContactLaw, Response, Step
+    from footfall.contact_set import ContactSet, HostEnergy, HostEvent, HostStep
     from footfall.errors import Interrupted, InvalidInput, Problem, ScenarioError, TooExpensive
     from footfall.results import Cost, Energy, Event, Final, Impact, Run, State, open, run
     from footfall.scenario import Scenario, shipped_scenarios, to_toml
@@ -29,10 +30,14 @@ __all__ = [
     "SLIP",
     "STICK",
     "ContactLaw",
+    "ContactSet",
     "Cost",
     "Energy",
     "Event",
     "Final",
+    "HostEnergy",
+    "HostEvent",
+    "HostStep",
     "Impact",
     "Interrupted",
     "InvalidInput",
@@ -54,7 +59,7 @@ __all__ = [
 ]
 
 # Loaded when first asked for, the extension last: to read a run and draw it takes no compiled code.
-_MODULES = ("errors", "results", "scenario", "contact", "_core")
+_MODULES = ("errors", "results", "scenario", "contact", "contact_set", "_core")
 
 
 # Loaded when first asked for. These draw with Matplotlib, which not everybody has, so that `import *` leaves them out.

@@ -349,6 +349,11 @@ class ContactLaw:
         prescribed: taken in place of that of :meth:`evaluate` it comes half a step late, which a stiff contact does
         not forgive.
 
+        What the ground does along its normal is held over the host's step all the same, and an impact is over in a few
+        milliseconds: held over 0.1 ms the paper's ball rebounds with a restitution of 0.602, over 0.5 ms of 0.594, over
+        1 ms of 1.43, where 0.603 is right. Steps should be a thirtieth of an impact, or shorter.
+        :class:`footfall.ContactSet` has no such limit.
+
         Parameters
         ----------
         bristle

@@ -29,6 +29,8 @@ void bind_laws(nb::module_& module);
 void bind_channels(nb::module_& module);
 /// The contact law over arrays.
 void bind_contact(nb::module_& module);
+/// Contacts in the loop of a simulator.
+void bind_contact_set(nb::module_& module);
 void bind_scenario(nb::module_& module);
 void bind_run(nb::module_& module);
 void bind_studies(nb::module_& module);

@@ -9,6 +9,7 @@ NB_MODULE(_core, module) {
     footfall::python::bind_laws(module);
     footfall::python::bind_channels(module);
     footfall::python::bind_contact(module);
+    footfall::python::bind_contact_set(module);
     footfall::python::bind_scenario(module);
     footfall::python::bind_run(module);
     footfall::python::bind_studies(module);

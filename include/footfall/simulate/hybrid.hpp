@@ -89,7 +89,13 @@ public:
     }
     /// Where the plant's own part of what follows begins.
     [[nodiscard]] constexpr int follow() const noexcept { return motion_size(); }
-    [[nodiscard]] constexpr int clock() const noexcept { return follow() + Plant::follows; }
+    [[nodiscard]] constexpr int clock() const noexcept {
+        if constexpr (Plant::follows == Eigen::Dynamic) {
+            return follow() + plant_.follow_size();
+        } else {
+            return follow() + Plant::follows;
+        }
+    }
     /// Where what contact i has taken begins.
     [[nodiscard]] constexpr int taken(int i) const noexcept { return clock() + 1 + kept_channels * i; }
     [[nodiscard]] constexpr int size() const noexcept { return taken(contacts()); }
@@ -243,7 +249,7 @@ private:
     template <class Contacts, class Rates>
     [[gnu::always_inline]] Action act(Contacts& contacts, const State& y, const Motion& m,
                                       Rates& rates) const noexcept {
-        Action total;
+        Action total = no_action();
         bool special = false;  // some contact asks for its load's rate, or drags
         each_contact([&](int i) __attribute__((always_inline)) {
             special = respond_one(contacts, y, m, rates, i, total) || special;
@@ -260,6 +266,13 @@ private:
             }
         }
         return total;
+    }
+    [[nodiscard, gnu::always_inline]] Action no_action() const noexcept {
+        if constexpr (requires { plant_.no_action(); }) {
+            return plant_.no_action();
+        } else {
+            return {};
+        }
     }
     /// What contact i does; whether that waits for a second round.
     template <class Contacts, class Rates>

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Core>
@@ -60,15 +61,15 @@ public:
         constexpr auto fifth = [] { return dormand_prince_853_table::error5; };
         constexpr auto third = [] { return dormand_prince_853_table::error3; };
         constexpr auto all = std::make_index_sequence<stages>{};
-        Values fives = weight, threes = weight;
+        Value five(0), three(0);
         for (Eigen::Index c = 0; c < y0_.size(); ++c) {
-            fives[c] *= weighted<Value>(fifth, c, all);
-            threes[c] *= weighted<Value>(third, c, all);
+            keep_largest(five, abs(weight[c] * weighted<Value>(fifth, c, all)));
+            keep_largest(three, abs(weight[c] * weighted<Value>(third, c, all)));
         }
-        // Where a component is not a number, neither is the error.
-        const Value five = fives.abs().template maxCoeff<Eigen::PropagateNaN>();
-        const Value three = threes.abs().template maxCoeff<Eigen::PropagateNaN>();
         if (five == Value(0)) return Value(0);
+        // Where a square overflows, the quotient would be zero.
+        const Value most = sqrt(std::numeric_limits<Value>::max()) / Value(2);
+        if (!(five < most && three < most)) return std::numeric_limits<Value>::infinity();
         return abs(h_) * five * five / sqrt(five * five + Value(0.01) * three * three);
     }
 
@@ -125,6 +126,10 @@ public:
     }
 
 private:
+    /// Where a component is not a number, neither is the largest.
+    static void keep_largest(Value& largest, const Value& x) noexcept {
+        if (!(x <= largest)) largest = largest == largest ? x : largest;
+    }
     [[nodiscard]] constexpr Eigen::Index motion() const noexcept { return Motion == Eigen::Dynamic ? motion_ : Motion; }
 
     template <class Theta>

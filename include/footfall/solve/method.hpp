@@ -137,6 +137,14 @@ public:
     [[nodiscard]] bool implicit() const noexcept { return stiff_; }
     /// Nothing is stiff in flight.
     void return_to_explicit() noexcept { stiff_ = stays_; }
+    /// What was learnt of the equations is forgotten: the next steps are those of a new method.
+    void forget() noexcept {
+        return_to_explicit();
+        last_error_ = Value(1);
+        failures_ = steps_ = 0;
+        patience_ = 1;
+        explicit_step_ = gained_ = refused_rate_ = Value(0);
+    }
 
     /// After a refused step: whether the implicit method has failed to converge so often that the explicit one takes
     /// over.

@@ -20,20 +20,12 @@
 #include "footfall/math/value_of.hpp"
 #include "footfall/solve/crossing_search.hpp"
 #include "footfall/solve/first_zero.hpp"
+#include "footfall/solve/goes_on.hpp"
 #include "footfall/solve/method.hpp"
 #include "footfall/solve/secants.hpp"
 #include "footfall/solve/watcher.hpp"
 
 namespace footfall {
-
-/// How a solver goes on after a jump.
-template <class Value>
-struct GoesOn {
-    Value step = Value(0);     ///< the size of the next step; 0: as long as it was
-    Value stretch = Value(1);  ///< times this
-    bool calm = false;         ///< nothing is stiff from here on
-    bool done = false;         ///< the work ends here, whatever the clock shows
-};
 
 /// What a Solver asks of the system that it follows (a PlainSystem answers most of it):
 ///
@@ -87,13 +79,19 @@ public:
     void fix_step(const Value& size) { fixed_step_ = size; }
     /// Takes every step by the implicit method: for measuring it where nothing is stiff. Before `run`.
     void stay_implicit() { method_.stay_implicit(); }
+    /// The next `run` is that of a new solver, whatever was before; what was spent counts anew.
+    void forget() {
+        method_.forget();
+        cost_ = {};
+        next_look_ = 0;
+        waiting_ = false;
+    }
 
     /// From y, in the modes that the system is in, until the clock shows `end`, or a jump says that the work is done.
     void run(State y, const Value& end) {
         y_ = std::move(y);
         end_ = end;
-        const auto guards = static_cast<Eigen::Index>(guard_count());
-        guards_ = lowest_ = scratch_guards_ = Guards::Ones(guards);
+        guards_ = lowest_ = scratch_guards_ = Guards::Ones(guard_count());
         armed_.assign(index(guard_count()), true);
         stalls_.assign(index(guard_count() / System::guards_per_group), Stall{});
         silent_until_.assign(index(guard_count()), -std::numeric_limits<Value>::infinity());
@@ -199,13 +197,13 @@ private:
 
     void advance() {
         const Value h = accepted_step();
-        const Guards end_guards = scratch_guards_;  // those of finish()
-        const Crossing crossing = crossings_.find(end_guards);
+        end_guards_ = scratch_guards_;  // those of finish()
+        const Crossing crossing = crossings_.find(end_guards_);
         if (crossing && !(crossing.theta > Value(0))) {
             meet_at_start(crossing, h);
             return;
         }
-        State y = method_.end();
+        State& y = next_ = method_.end();
         if (crossing && !locate(crossing, h, y)) {  // the shorter step did not converge: look again from nearer
             if (fixed_step_ > Value(0)) throw std::runtime_error("an event cannot be located in steps of a fixed size");
             step_ = Value(0.5) * crossing.theta * h;
@@ -218,7 +216,7 @@ private:
         set_clock(y, ends);
         system_.stepped(step_);
         system_.tidy(y, from_, to_);
-        y_ = std::move(y);
+        std::swap(y_, y);
         ++cost_.steps;
         if (method_.implicit()) ++cost_.stiff_steps;
         for (Watcher<State>* w : watchers_) w->reach(y_);
@@ -229,7 +227,7 @@ private:
             }
             return;
         }
-        guards_ = end_guards;
+        guards_ = end_guards_;
         rearm();
         method_.advance(y_, weight_);
         lowest_ = Guards::Constant(lowest_.size(), std::numeric_limits<Value>::max());
@@ -329,6 +327,10 @@ private:
     }
     // Guards that fall from where the step starts: there is no step. The place moves with the inputs all the same.
     void meet_at_start(const Crossing& crossing, const Value& whole) {
+        if (crossing.first() == end_of_run()) {  // nothing but rounding is left
+            y_[system_.clock()] = S(end_);
+            return;
+        }
         if constexpr (!std::floating_point<S>) {
             if (crossing.slope < Value(0))
                 y_ += method_.start_rate() * S(moving(S(-guards_[crossing.first()])) / S(crossing.slope) * whole);
@@ -472,10 +474,11 @@ private:
     SolverCost cost_;
     std::int64_t look_every_ = 4096, next_look_ = 0;
 
-    State y_, scratch_;
+    State y_, scratch_, next_;
     ValuesOf<State> weight_;
-    Guards guards_, lowest_, scratch_guards_;  // at the step's start; the least over its stages; of the last evaluation
-    std::array<Guards, 2> looked_;             // at the looks inside an explicit step
+    Guards guards_, lowest_, scratch_guards_,
+        end_guards_;                // at the step's start; the least over its stages; of the last evaluation
+    std::array<Guards, 2> looked_;  // at the looks inside an explicit step
     std::size_t looks_ = 0;
     CrossingSearch<Solver> crossings_;
     // A guard that has just been handled starts on its zero; it is looked at again once it has been positive.
