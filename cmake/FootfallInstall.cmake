@@ -3,9 +3,10 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/footfall)
 
-# The law's targets stand in a file of their own: whoever asks for the law alone needs nothing else.
+# Laws and contact sets stand in files of their own: whoever asks for these alone needs nothing else.
 install(TARGETS footfall_law EXPORT footfall_law_targets)
-install(TARGETS footfall_core footfall_host footfall_study footfall_io footfall EXPORT footfall_targets)
+install(TARGETS footfall_host EXPORT footfall_host_targets)
+install(TARGETS footfall_core footfall_study footfall_io footfall EXPORT footfall_targets)
 install(FILES include/footfall.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS footfall_cli)
 install(DIRECTORY include/footfall ${PROJECT_BINARY_DIR}/include/footfall
@@ -16,10 +17,9 @@ install(DIRECTORY scenarios/
     FILES_MATCHING PATTERN "*.toml")
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-foreach(part IN ITEMS _law "")
-    string(REPLACE _law Law file footfall${part}Targets.cmake)
-    install(EXPORT footfall${part}_targets FILE ${file} NAMESPACE footfall:: DESTINATION ${package_dir})
-endforeach()
+install(EXPORT footfall_law_targets FILE footfallLawTargets.cmake NAMESPACE footfall:: DESTINATION ${package_dir})
+install(EXPORT footfall_host_targets FILE footfallHostTargets.cmake NAMESPACE footfall:: DESTINATION ${package_dir})
+install(EXPORT footfall_targets FILE footfallTargets.cmake NAMESPACE footfall:: DESTINATION ${package_dir})
 
 get_target_property(library_type footfall_core TYPE)
 string(COMPARE EQUAL ${library_type} STATIC_LIBRARY footfall_is_static)
