@@ -189,7 +189,7 @@ private:
         const std::span<double> own = x.subspan(static_cast<std::size_t>(law.normal_state_count()));
         constexpr double rough = 1e-2;
         with_law(law.friction, [&]<class Friction>(const Friction& friction) {
-            HeldFriction<Friction>(friction, rough).advance(load, t.slip, rest, own, step);
+            HeldFriction<Friction>(friction, rough).advance(load, t, rest, own, step);
         });
         if (step.left > 0 || !step.mean_friction_force.allFinite()) {
             std::copy(before.begin(), before.end(), x.begin());

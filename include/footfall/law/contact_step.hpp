@@ -42,7 +42,7 @@ public:
         ContactStep step{.phase = mode.phase};
         if (mode.loaded()) step.normal_force = law_.normal_force(t, x);
         const Load<double> load{law_.scale_at(t.root_depth), mode.touches() ? law_.load_at(t, x).over_scale : 0};
-        friction_.advance(load, V, dt, x.subspan(static_cast<std::size_t>(law_.normal_state_count())), step);
+        friction_.advance(load, t, dt, x.subspan(static_cast<std::size_t>(law_.normal_state_count())), step);
         law_.deepen(t, dt, x);
         return step;
     }

@@ -32,9 +32,9 @@ public:
     HeldFriction(const Friction& friction, double tolerance)
         : friction_(friction), dual_(friction.template cast<Slope>()), tolerance_(tolerance) {}
 
-    void advance(const Load<double>& load, const Vector2<double>& V, double dt, std::span<double> x,
+    void advance(const Load<double>& load, const Touch<double>& touch, double dt, std::span<double> x,
                  ContactStep& all) const noexcept {
-        const Held held{load.scale, load.over_scale, V};
+        const Held held{load.scale, load.over_scale, touch.slip};
         Step step{all, vector_at<double>(x)};
         if (step.phase == Phase::flight || step.phase == Phase::recovering) {
             recover(held, dt, step);

@@ -30,7 +30,7 @@ struct ContactStep {
 
 /// One friction law over double, held:
 ///   HeldFriction(law, tolerance)
-///   advance(load, V, dt, x, step)   from step.phase: advances the states x and the phase, and books what is taken
+///   advance(load, touch, dt, x, step)   from step.phase: advances the states x and the phase, and books what is taken
 template <class Law>
 class HeldFriction;
 
@@ -39,7 +39,7 @@ class HeldFriction<NoFriction<>> {
 public:
     HeldFriction(const NoFriction<>& /*law*/, double /*tolerance*/) noexcept {}
 
-    void advance(const Load<double>& /*load*/, const Vector2<double>& /*V*/, double /*dt*/, std::span<double> /*x*/,
+    void advance(const Load<double>& /*load*/, const Touch<double>& /*touch*/, double /*dt*/, std::span<double> /*x*/,
                  ContactStep& /*step*/) const noexcept {}
 };
 
