@@ -100,15 +100,17 @@ TYPED_TEST(NormalLawTest, AnErasedPairIsTheLawItHolds) {
 }
 
 TYPED_TEST(NormalLawTest, TheLawOfAnImpactComputesItsForce) {
-    check_property([] {
-        auto law = random_law<TypeParam>();
-        const ContactState at;
-        const double speed = *decades(1e-2, 1e1);
-        const auto computed = law_of_impact(law, speed);
-        if constexpr (requires { law.begin_impact(speed); }) law.begin_impact(speed);
-        RC_ASSERT(computed.force(at.s(), at.rate).elastic == law.force(at.s(), at.rate).elastic);
-        RC_ASSERT(computed.force(at.s(), at.rate).dissipative == law.force(at.s(), at.rate).dissipative);
-    });
+    if constexpr (NormalPart<TypeParam>::moving_states() == 0) {  // else its force is not of depth and rate alone
+        check_property([] {
+            auto law = random_law<TypeParam>();
+            const ContactState at;
+            const double speed = *decades(1e-2, 1e1);
+            const auto computed = law_of_impact(law, speed);
+            if constexpr (requires { law.begin_impact(speed); }) law.begin_impact(speed);
+            RC_ASSERT(computed.force(at.s(), at.rate).elastic == law.force(at.s(), at.rate).elastic);
+            RC_ASSERT(computed.force(at.s(), at.rate).dissipative == law.force(at.s(), at.rate).dissipative);
+        });
+    }
 }
 
 // A law may be told of an impact by a member of its own, and by the states that it declares.
