@@ -85,7 +85,7 @@ class HostStep(Compared):
     states: Floats
     """Of the laws of all contacts at the step's end, one after another."""
     phase: npt.NDArray[np.int8]
-    """At the step's end: index into :data:`footfall.PHASES`, shape (n,)."""
+    """At the step's end: index into ``footfall.PHASES``, shape (n,)."""
     events: tuple[HostEvent, ...]
     """Inside the step, in order of time."""
     energy: HostEnergy
@@ -170,7 +170,7 @@ class ContactSet:
 
     @property
     def phase(self) -> npt.NDArray[np.int8]:
-        """Index into :data:`footfall.PHASES`, shape (n,)."""
+        """Index into ``footfall.PHASES``, shape (n,)."""
         return np.asarray(self._set.phase)
 
     @property
