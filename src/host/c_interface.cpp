@@ -13,6 +13,7 @@
 #include "footfall/host/contact_set.hpp"
 #include "footfall/math/error.hpp"
 #include "footfall/version.hpp"
+#include "host/check_step.hpp"
 #include "host/law_by_name.hpp"
 
 struct footfall_contact_set {
@@ -222,12 +223,8 @@ footfall_status footfall_contact_set_restore(footfall_contact_set* set, const do
         const std::size_t count = set->set.states().size();
         std::vector<footfall::Phase> all;
         given(phases, "phases");
-        for (std::size_t i = 0; i < static_cast<std::size_t>(set->set.contacts()); ++i) {
-            if (phases[i] < 0 || phases[i] > static_cast<int>(footfall::Phase::recovering))
-                throw InvalidInput(fmt::format(
-                    "phases[{}] is {}; must be one of 0 flight, 1 stick, 2 slip, 3 recovering", i, phases[i]));
-            all.push_back(static_cast<footfall::Phase>(phases[i]));
-        }
+        for (std::size_t i = 0; i < static_cast<std::size_t>(set->set.contacts()); ++i)
+            all.push_back(footfall::host::phase_at(i, phases[i]));
         set->set.restore(count > 0 ? required(states, count, "states") : std::span<const double>(), all);
     });
 }

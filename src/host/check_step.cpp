@@ -108,4 +108,11 @@ void check_options(const ContactSetOptions& options) {
         throw InvalidInput(fmt::format("max_evaluations is {}; must be >= 1", options.max_evaluations));
 }
 
+Phase phase_at(std::size_t i, int number) {
+    if (number < 0 || number > static_cast<int>(Phase::recovering))
+        throw InvalidInput(
+            fmt::format("phases[{}] is {}; must be one of 0 flight, 1 stick, 2 slip, 3 recovering", i, number));
+    return static_cast<Phase>(number);
+}
+
 }  // namespace footfall::host

@@ -12,4 +12,7 @@ namespace footfall::host {
 void check_step(const HostStep& host, std::size_t contacts, int asks, std::string_view law);
 void check_options(const ContactSetOptions& options);
 
+/// The phase of contact i that a number stands for. Throws InvalidInput where it stands for none.
+[[nodiscard]] Phase phase_at(std::size_t i, int number);
+
 }  // namespace footfall::host

@@ -56,12 +56,12 @@ public:
           options_((host::check_options(options), options)),
           laws_(checked(parameters_)),
           asks_(first_that_sees_turning(laws_)),
-          system_(laws_, options.tolerance, asks_ >= 0),
+          given_(laws_.size()),
+          system_(given_, laws_, options.tolerance, asks_ >= 0),
           budget_(options.max_evaluations),
           solver_(system_),
           rest_(system_),
           begin_(State::Zero(system_.hybrid().size())),
-          modes_(laws_.size()),
           phases_(laws_.size(), Phase::flight) {
         offsets_.push_back(0);
         for (const Law& law : laws_) offsets_.push_back(offsets_.back() + static_cast<std::size_t>(law.states()));
@@ -95,7 +95,6 @@ public:
 
     void take_memory(const Inside& other) {
         states_ = other.states_;
-        modes_ = other.modes_;
         phases_ = other.phases_;
         result_ = other.result_;
     }
@@ -109,19 +108,13 @@ public:
         for (std::size_t k = 0; k < states.size(); ++k)
             if (!std::isfinite(states[k]))
                 throw InvalidInput(fmt::format("states[{}] is {}; must be finite", k, states[k]));
-        for (std::size_t i = 0; i < phases.size(); ++i)
-            if (phases[i] > Phase::recovering)
-                throw InvalidInput(
-                    fmt::format("phases[{}] is {}; must be one of 0 flight, 1 stick, 2 slip, 3 recovering", i,
-                                static_cast<int>(phases[i])));
+        for (std::size_t i = 0; i < phases.size(); ++i) (void)host::phase_at(i, static_cast<int>(phases[i]));
         std::copy(states.begin(), states.end(), states_.begin());
         std::copy(phases.begin(), phases.end(), phases_.begin());
-        for (std::size_t i = 0; i < phases.size(); ++i) modes_[i] = {phases[i]};
     }
     void reset() {
         std::fill(states_.begin(), states_.end(), 0.0);
         std::fill(phases_.begin(), phases_.end(), Phase::flight);
-        std::fill(modes_.begin(), modes_.end(), Mode{});
     }
 
     [[nodiscard]] const std::vector<ContactParameters>& parameters() const noexcept { return parameters_; }
@@ -164,7 +157,7 @@ private:
     /// Whether no contact touches in this step: then nothing has to be integrated.
     [[nodiscard]] bool flies(const HostStep& host) const noexcept {
         for (std::size_t i = 0; i < laws_.size(); ++i) {
-            if (modes_[i].touches()) return false;
+            if (phases_[i] != Phase::flight) return false;
             const double z = host.depth[i], v = host.velocity[3 * i + 2], a = host.free_acceleration[3 * i + 2];
             const auto depth = [&](double t) { return z - v * t - 0.5 * a * t * t; };
             const double turns = a > 0 ? std::clamp(-v / a, 0.0, host.dt) : 0;
@@ -189,7 +182,7 @@ private:
 
     void take(const HostStep& host) {
         constexpr double far = -1e30;  // [m]: what minus infinity is counted as
-        HeldStep<double>& to = system_.step();
+        HeldStep<double>& to = given_;
         const std::size_t n = 3 * laws_.size();
         const auto copy_or_zero = [](std::span<const double> from, std::vector<double>& into) {
             if (from.empty()) {
@@ -220,7 +213,7 @@ private:
 
     void integrate(double dt) {
         clear_result();
-        system_.begin(modes_, dt);
+        system_.begin(phases_, dt);
         solver_.forget();
         try {
             solver_.run(begin_, dt);
@@ -239,7 +232,7 @@ private:
     void take_rest(double dt) {
         end_ = solver_.state();
         if (!end_.isFinite().all()) {
-            system_.begin(modes_, dt);
+            system_.begin(phases_, dt);
             solver_.forget();
             end_ = begin_;
             solver_.run(begin_, 0);
@@ -252,7 +245,6 @@ private:
     void read(double dt) {
         const auto& hybrid = system_.hybrid();
         const auto& plant = hybrid.plant();
-        const HeldStep<double>& given = system_.step();
         const auto motion = plant.motion(end_);
         const std::size_t n = 3 * laws_.size();
         for (std::size_t k = 0; k < n; ++k) {
@@ -262,9 +254,9 @@ private:
         // v . dJ = d(v0 . J + a . (t J - double impulse) + J . D J / 2): no velocity at the end is needed.
         for (std::size_t k = 0; k < n; ++k) {
             double response = 0;
-            for (std::size_t l = 0; l < n; ++l) response += given.delassus[k * n + l] * result_.impulse[l];
-            result_.contact_work += result_.impulse[k] * (given.velocity[k] + 0.5 * response) +
-                                    given.acceleration[k] * (dt * result_.impulse[k] - result_.double_impulse[k]);
+            for (std::size_t l = 0; l < n; ++l) response += given_.delassus[k * n + l] * result_.impulse[l];
+            result_.contact_work += result_.impulse[k] * (given_.velocity[k] + 0.5 * response) +
+                                    given_.acceleration[k] * (dt * result_.impulse[k] - result_.double_impulse[k]);
         }
         double scale = system_.scales().energy();
         for (std::size_t i = 0; i < laws_.size(); ++i) {
@@ -280,8 +272,7 @@ private:
             read_integrals(e, contact_channels, end_, hybrid.taken(contact));
             const std::span<const double> x = std::as_const(hybrid).states(std::as_const(end_), contact);
             std::copy(x.begin(), x.end(), own_states(i).begin());
-            modes_[i] = hybrid.mode(contact);
-            phases_[i] = modes_[i].phase;
+            phases_[i] = hybrid.mode(contact).phase;
         }
         for (const System::Event& event : system_.events())
             result_.events.push_back({event.time, event.contact, event.kind});
@@ -291,10 +282,9 @@ private:
     void read_torques(std::size_t i) {
         const auto& hybrid = system_.hybrid();
         const int first = hybrid.follow() + hybrid.plant().angular_impulse(static_cast<int>(i));
-        const HeldStep<double>& given = system_.step();
         for (int k = 0; k < 3; ++k) result_.angular_impulse[3 * i + index(k)] = end_[first + k];
-        result_.contact_work += given.rolling[2 * i] * end_[first] + given.rolling[2 * i + 1] * end_[first + 1] +
-                                given.spin[i] * end_[first + 2];
+        result_.contact_work += given_.rolling[2 * i] * end_[first] + given_.rolling[2 * i + 1] * end_[first + 1] +
+                                given_.spin[i] * end_[first + 2];
     }
 
     void clear_result() {
@@ -318,6 +308,7 @@ private:
     ContactSetOptions options_;
     std::vector<Law> laws_;
     int asks_;  // a contact whose law sees how its sphere turns, or -1
+    HeldStep<double> given_;
     System system_;
     StepBudget budget_;
     Solver<System> solver_;
@@ -325,7 +316,6 @@ private:
     State begin_, end_;
     std::vector<std::size_t> offsets_;
     std::vector<double> states_;
-    std::vector<Mode> modes_;
     std::vector<Phase> phases_;
     ContactSetStep result_;
 };

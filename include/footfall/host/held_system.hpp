@@ -16,7 +16,7 @@
 #include "footfall/law/mode.hpp"
 #include "footfall/math/value_of.hpp"
 #include "footfall/plant/held.hpp"
-#include "footfall/simulate/derivatives.hpp"
+#include "footfall/simulate/contact_guards.hpp"
 #include "footfall/simulate/hybrid.hpp"
 #include "footfall/solve/solver.hpp"
 
@@ -24,20 +24,18 @@ namespace footfall {
 
 /// `LawType` is a contact law over S (law/pair.hpp).
 template <class LawType>
-class HeldSystem {
+class HeldSystem : public ContactGuards<HeldSystem<LawType>, Hybrid<HeldPlant<typename LawType::value_type>, LawType>> {
+    using Base = ContactGuards<HeldSystem<LawType>, Hybrid<HeldPlant<typename LawType::value_type>, LawType>>;
+    friend Base;
+    using Base::depth_rate, Base::hybrid_;
+
 public:
-    using Law = LawType;
-    using S = typename Law::value_type;
-    using Value = ValueOf<S>;
-    using Plant = HeldPlant<S>;
-    using HybridType = Hybrid<Plant, Law>;
-    using State = typename HybridType::State;
-    using Guards = typename HybridType::Guards;
+    using HybridType = Hybrid<HeldPlant<typename LawType::value_type>, LawType>;
+    using Base::clock;
+    using typename Base::Law, typename Base::Plant, typename Base::S, typename Base::State, typename Base::Value;
 
     static constexpr int motion_at_compile_time = Eigen::Dynamic;
-    static constexpr int guards_per_group = HybridType::guards_per_contact;
     static constexpr bool differentiates_along = true;
-    static constexpr int longest_visit = 5;  ///< events without time: touchdown, stick, slip, separation, recovered
     /// A step of a host is short: what is stiff in it has to be seen soon.
     static constexpr Switching switching{
         .look = 16, .border = 4, .price = 20, .patience = 4, .gentle = 0.25, .follows_turning = true};
@@ -48,11 +46,11 @@ public:
         EventKind kind;
     };
 
-    /// One law for each contact; `tolerance` is relative.
-    HeldSystem(const std::vector<Law>& laws, double tolerance, bool torques)
-        : step_(laws.size()),
-          hybrid_(Plant(step_, torques), laws),
-          derivatives_(hybrid_),
+    /// One law for each contact; `tolerance` is relative. `step` is what the host gives: it outlives the system, and is
+    /// filled before `begin`.
+    HeldSystem(HeldStep<S>& step, const std::vector<Law>& laws, double tolerance, bool torques)
+        : Base(HybridType(Plant(step, torques), laws)),
+          step_(step),
           scales_(laws.size()),
           tolerance_(step_share * tolerance),
           held_before_(laws.size()),
@@ -60,22 +58,17 @@ public:
         tables_.reserve(laws.size());
         for (const Law& law : laws) tables_.emplace_back(law);
     }
-    HeldSystem(const HeldSystem&) = delete;  // its plants look at its step
-    HeldSystem& operator=(const HeldSystem&) = delete;
 
-    /// What the host gives: to be filled before `begin`.
-    [[nodiscard]] HeldStep<S>& step() noexcept { return step_; }
     [[nodiscard]] const HeldStep<S>& step() const noexcept { return step_; }
-    [[nodiscard]] const HybridType& hybrid() const noexcept { return hybrid_; }
     [[nodiscard]] const HeldScales& scales() const noexcept { return scales_; }
     [[nodiscard]] const std::vector<Event>& events() const noexcept { return events_; }
     /// What contact i held at the start, at the depth and the velocity that the host has given [J].
     [[nodiscard]] const Held<S>& held_before(int i) const noexcept { return held_before_[at(i)]; }
     void set_mode(int i, Mode mode) noexcept { hybrid_.set_mode(i, mode); }
 
-    /// A step of dt begins, with every contact in the mode that it was left in.
-    void begin(std::span<const Mode> modes, double dt) {
-        for (int i = 0; i < hybrid_.contacts(); ++i) hybrid_.set_mode(i, {modes[at(i)].phase});
+    /// A step of dt begins, with every contact in the phase that it was left in.
+    void begin(std::span<const Phase> phases, double dt) {
+        for (int i = 0; i < hybrid_.contacts(); ++i) hybrid_.set_mode(i, {phases[at(i)]});
         std::fill(step_.depth_offset.begin(), step_.depth_offset.end(), S(0));
         step_.plain_time = false;
         events_.clear();
@@ -86,22 +79,7 @@ public:
         landed_ = false;
     }
 
-    // ---- the equations -------------------------------------------------------------------------------------------
-
-    [[nodiscard]] int motion_size() const noexcept { return hybrid_.motion_size(); }
-    [[nodiscard]] int guard_count() const noexcept { return guards_per_group * hybrid_.contacts(); }
-    [[nodiscard]] int clock() const noexcept { return hybrid_.clock(); }
     [[nodiscard]] bool uniform() const noexcept { return step_.plain_time || hybrid_.in_flight(); }
-
-    void evaluate(const State& y, State& rate, Guards* guards) const noexcept { hybrid_.evaluate(y, rate, guards); }
-    template <class Vector, class Matrix>
-    std::int64_t jacobian(const Vector& y, Matrix& J) {
-        return derivatives_.jacobian(hybrid_, y, J);
-    }
-    template <class Vector, class Product>
-    std::int64_t along(const Vector& y, const Product& v, Product& Jv) {
-        return derivatives_.along(hybrid_, y, v, Jv);
-    }
 
     // ---- sizes of steps and errors -------------------------------------------------------------------------------
 
@@ -150,32 +128,10 @@ public:
     static void stepped(const Value&) noexcept {}
 
     void tidy(State& y, const Value& from, const Value& to) const {
-        for (int i = 0; i < hybrid_.contacts(); ++i)
-            if (!hybrid_.touches(i))
-                y[hybrid_.taken(i) + by_tangential_damper] += hybrid_.law(i).relax(S(to - from), hybrid_.states(y, i));
-        // What decays for long is set to zero before it is denormal, which would be slow.
-        constexpr double nothing = 1e-150;
-        for (S& x : y)
-            if (std::abs(value_of(x)) < Value(nothing)) x = S(0);
+        this->relax(y, to - from);
+        Base::end_decay(y);
     }
 
-    // ---- guards ----------------------------------------------------------------------------------------------------
-
-    /// Touchdown follows from the impulses, which no stage knows.
-    [[nodiscard]] bool blind(int guard) const noexcept { return !hybrid_.touches(contact(guard)); }
-    [[nodiscard]] Value approach(int guard, const State& y) const { return depth_rate(y, contact(guard)); }
-    [[nodiscard]] bool approaches(int guard, const State& y) const { return comes_down(y, contact(guard)); }
-    /// What ends the contact goes before what ends its stick or slip.
-    [[nodiscard]] bool outranks(int j, int other) const noexcept {
-        return kind(j) == Law::depth_guard || kind(other) == Law::clutch_guard;
-    }
-    [[nodiscard]] bool quick(int guard) const { return hybrid_.law(contact(guard)).quick(kind(guard)); }
-    /// A contact may be left recovering, or sticking.
-    [[nodiscard]] bool may_wait(int guard) const noexcept {
-        const Phase phase = hybrid_.mode(contact(guard)).phase;
-        return (kind(guard) == Law::load_guard && phase == Phase::recovering) ||
-               (kind(guard) == Law::clutch_guard && phase == Phase::stick);
-    }
     /// Short beside an impact.
     [[nodiscard]] Value moment() const noexcept {
         Value least = Value(scales_.dt());
@@ -211,32 +167,9 @@ public:
             apply(i, hybrid_.law(i).kink(hybrid_.mode(i), presses, t, t, pull, hybrid_.states(y, i)), y);
         }
         std::vector<int> pressed;
-        for (int i = 0; i < hybrid_.contacts(); ++i)
-            if (!hybrid_.touches(i) && about_to_touch(y, i)) pressed.push_back(i);
+        add_pressed(pressed, y);
         choose_time(y);
         if (!pressed.empty()) touch_down(pressed, y);
-    }
-
-    /// Guards have reached zero at y.
-    GoesOn<Value> jump(std::span<const int> guards, State& y, std::vector<bool>& armed) {
-        GoesOn<Value> next;
-        std::vector<int> landing;
-        for (const int guard : guards)
-            if (!hybrid_.touches(contact(guard))) landing.push_back(contact(guard));
-        for (const int guard : guards) {
-            const int i = contact(guard);
-            for (int k = 0; k < guards_per_group; ++k) armed[at(guards_per_group * i + k)] = true;
-            if (hybrid_.touches(i)) cross(guard, y, armed, next);
-        }
-        if (!landing.empty()) {
-            for (int k = 0; k < hybrid_.contacts(); ++k)
-                if (!hybrid_.touches(k) && std::find(landing.begin(), landing.end(), k) == landing.end() &&
-                    about_to_touch(y, k))
-                    landing.push_back(k);
-            touch_down(landing, y);
-            next.step = first_step();
-        }
-        return next;
     }
 
 private:
@@ -245,8 +178,6 @@ private:
     static constexpr double step_share = 0.03;
     static constexpr double eps() { return static_cast<double>(std::numeric_limits<Value>::epsilon()); }
     static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-    static int contact(int guard) noexcept { return guard / guards_per_group; }
-    static int kind(int guard) noexcept { return guard % guards_per_group; }
     template <class T>
     static double number(const T& x) {
         return static_cast<double>(value_of(x));
@@ -304,9 +235,6 @@ private:
         first_step_ = Value(step / number(hybrid_.time_rate(y)));
     }
 
-    [[nodiscard]] Value depth_rate(const State& y, int i) const {
-        return value_of(Plant::depth_rate(hybrid_.plant().motion(y), i));
-    }
     /// Distances below this are rounding [m].
     [[nodiscard]] Value touching(int i) const {
         constexpr double roundings = 64;
@@ -318,6 +246,9 @@ private:
         const Plant& plant = hybrid_.plant();
         const S z = plant.geometric_depth(y, plant.motion(y), hybrid_.follow(), i);
         return std::abs(value_of(z)) <= touching(i) && comes_down(y, i);
+    }
+    void add_pressed(std::vector<int>& landing, const State& y) {
+        Base::add_those(landing, [&](int i) { return about_to_touch(y, i); });
     }
     [[nodiscard]] bool comes_down(const State& y, int i) const {
         const Value rate = depth_rate(y, i);
@@ -369,30 +300,12 @@ private:
         return S(soon * scales_.root_depth(i));
     }
 
-    void cross(int guard, State& y, std::vector<bool>& armed, GoesOn<Value>& next) {
-        const int i = contact(guard);
-        const bool dragged = hybrid_.mode(i).drags;
-        const S scale_before = hybrid_.time_rate(y);
-        if (kind(guard) == Law::depth_guard) {
-            if (hybrid_.mode(i).loaded()) cross_one(Law::load_guard, i, false, y);
-            y[hybrid_.plant().root_depth_component(i)] = S(0);
-            cross_one(Law::depth_guard, i, false, y);
-            armed[at(guards_per_group * i + Law::load_guard)] = false;
-            const Plant& plant = hybrid_.plant();
-            step_.depth_offset[at(i)] += plant.geometric_depth(y, plant.motion(y), hybrid_.follow(), i);
-            if (hybrid_.in_flight()) {
-                next.step = Value(scales_.dt());
-                next.calm = true;
-            }
-            return;
-        }
-        const bool on_border = kind(guard) == Law::load_guard && !dragged && has_border_motion(y, i);
-        cross_one(kind(guard), i, on_border, y);
-        armed[at(guard)] = false;
-        if (dragged && kind(guard) == Law::clutch_guard) armed[at(guards_per_group * i + Law::load_guard)] = false;
-        // A contact that drags does not count in g: the next step stays as long in time.
-        if (hybrid_.mode(i).drags != dragged) next.stretch *= value_of(scale_before) / value_of(hybrid_.time_rate(y));
+    /// By what s has gone astray the depth in flight is off.
+    void left_ground(int i, const State& y) {
+        const Plant& plant = hybrid_.plant();
+        step_.depth_offset[at(i)] += plant.geometric_depth(y, plant.motion(y), hybrid_.follow(), i);
     }
+    [[nodiscard]] Value flight_step() const { return Value(scales_.dt()); }
     void cross_one(int kind, int i, bool on_border, State& y) {
         const Touch<S> t = hybrid_.touch(y, i);
         const S before = hybrid_.held(y, t, i).tangential_spring;
@@ -407,13 +320,6 @@ private:
         for (const S& taken : jump.taken) missing -= taken;
         y[hybrid_.taken(i) + unpaid] += missing;
     }
-    /// Whether either mode at F_n = 0 pushes the motion into the other at once: then it goes along the border.
-    [[nodiscard]] bool has_border_motion(const State& y, int i) {
-        if (!hybrid_.law(i).may_drag()) return false;
-        return hybrid_.load_guard_rate(y, i, {Phase::slip}) < S(0) &&
-               hybrid_.load_guard_rate(y, i, {Phase::recovering}) > S(0);
-    }
-
     void apply(int i, const Jump<S>& jump, State& y) {
         hybrid_.set_mode(i, jump.mode);
         hybrid_.book(y, i, jump.taken);
@@ -421,9 +327,7 @@ private:
             events_.push_back({value_of(y[clock()]), i, jump.events[static_cast<std::size_t>(k)]});
     }
 
-    HeldStep<S> step_;
-    HybridType hybrid_;
-    Derivatives<HybridType> derivatives_;
+    HeldStep<S>& step_;
     HeldScales scales_;
     std::vector<RootDepthTable> tables_;
     double tolerance_;

@@ -124,14 +124,11 @@ inline void check(const ContactParameters& contact, std::string_view who) {
         for (const auto& p : law.parameters()) {
             const double value = law.*p.member;
             if (p.allows(value)) continue;
-            std::string what;
-            for (const std::string_view word :
-                 {who, std::string_view(": "), part, std::string_view(" law '"), law.description.name,
-                  std::string_view("': "), p.key, std::string_view(" ("), p.symbol, std::string_view(", "),
-                  p.description, std::string_view(") is ")})
-                what += word;
-            what += number_text(value) + " " + std::string(p.unit) + "; allowed is " + std::string(p.range());
-            throw InvalidInput(what + ", finite");
+            const auto text = [](std::string_view word) { return std::string(word); };
+            throw InvalidInput(text(who) + ": " + text(part) + " law '" + text(law.description.name) +
+                               "': " + text(p.key) + " (" + text(p.symbol) + ", " + text(p.description) + ") is " +
+                               number_text(value) + " " + text(p.unit) + "; allowed is " + text(p.range()) +
+                               ", finite");
         }
     };
     std::visit([&](const auto& law) { check_one(law, "normal"); }, contact.normal);

@@ -31,7 +31,6 @@ public:
 
     [[nodiscard]] static constexpr int contacts() noexcept { return contacts_at_compile_time; }
     [[nodiscard]] static constexpr int motion_size() noexcept { return motion_at_compile_time; }
-    [[nodiscard]] const S& mass() const noexcept { return mass_; }
 
     struct Motion {
         S depth_rate;  ///< zdot [m/s]
@@ -73,19 +72,15 @@ public:
                                       int /*follow*/, State& rate) const noexcept {
         rate[velocity] = depth_acceleration(m, total, 0) * g;
     }
-    /// ds/dsigma of a contact that touches: zdot g/(2 s). `alone`: g = s.
+    /// ds/dsigma of the contact, zdot g/(2 s): here g = s.
     template <class State>
-    [[gnu::always_inline]] static void root_depth_rate(const State& y, int /*i*/, const S& depth_rate, const S& g,
-                                                       bool alone, State& rate) noexcept {
-        rate[root_depths] = depth_rate * (alone ? S(0.5) : S(g / (S(2) * y[root_depths])));
+    [[gnu::always_inline]] static void root_depth_rate(const State& /*y*/, int /*i*/, const S& depth_rate,
+                                                       const S& /*g*/, bool /*alone*/, State& rate) noexcept {
+        rate[root_depths] = depth_rate * S(0.5);
     }
     template <class State>
     [[nodiscard]] static S geometric_depth(const State& y, const Motion& /*m*/, int /*follow*/, int /*i*/) noexcept {
         return y[root_depths] * y[root_depths];
-    }
-
-    [[nodiscard]] S kinetic_energy(const Motion& m) const noexcept {
-        return S(0.5) * mass_ * m.depth_rate * m.depth_rate;
     }
 
     template <class T>

@@ -24,6 +24,7 @@
 #include "footfall/law/touch.hpp"
 #include "footfall/math/vector.hpp"
 #include "footfall/plant/ground_frame.hpp"
+#include "footfall/plant/root_depths.hpp"
 #include "footfall/surface/plane.hpp"
 
 namespace footfall {
@@ -97,12 +98,11 @@ public:
     }
     [[nodiscard]] S depth_rate(const Motion& m, int i) const noexcept { return -bottom_velocity(m, i).z(); }
 
+    [[nodiscard]] static constexpr int root_depth_component(int i) noexcept { return root_depths + i; }
     /// s of contact i, never so near zero that a power of it in a denominator would overflow.
     template <class State>
     [[nodiscard, gnu::always_inline]] static S root_depth(const State& y, int i) noexcept {
-        const S s = y[root_depths + i];
-        const S least(1e-60);
-        return s < least && s > -least ? least : s;
+        return off_zero<S>(y[root_depths + i]);
     }
 
     /// Forces of all contacts, and their torque about the centre of mass.
@@ -139,10 +139,7 @@ public:
         if constexpr (Contacts == 1) {
             return counts(0) ? root_depth(y, 0) : S(1);
         } else {
-            S sum(0);
-            for (int i = 0; i < contacts(); ++i)
-                if (counts(i)) sum += S(1) / root_depth(y, i);
-            return sum == S(0) ? S(1) : S(1) / sum;
+            return shared_time_rate<S>(contacts(), counts, [&](int i) { return root_depth(y, i); });
         }
     }
 
@@ -168,7 +165,7 @@ public:
     template <class State>
     [[gnu::always_inline]] void root_depth_rate(const State& y, int i, const S& depth_rate, const S& g, bool alone,
                                                 State& rate) const noexcept {
-        rate[root_depths + i] = depth_rate * (alone ? S(0.5) : S(g / (S(2) * root_depth(y, i))));
+        rate[root_depths + i] = depth_rate * (alone ? S(0.5) : root_depth_per_depth<S>(root_depth(y, i), g));
     }
 
     // ---- energy ----------------------------------------------------------------------------------------------------

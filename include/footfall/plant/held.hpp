@@ -29,6 +29,7 @@
 #include "footfall/law/touch.hpp"
 #include "footfall/math/value_of.hpp"
 #include "footfall/math/vector.hpp"
+#include "footfall/plant/root_depths.hpp"
 
 namespace footfall {
 
@@ -112,9 +113,7 @@ public:
     /// s of contact i, never so near zero that a power of it in a denominator would overflow.
     template <class State>
     [[nodiscard]] S root_depth(const State& y, int i) const noexcept {
-        const S s = y[root_depth_component(i)];
-        const S least(1e-60);
-        return s < least && s > -least ? least : s;
+        return off_zero<S>(y[root_depth_component(i)]);
     }
 
     /// Forces of all contacts, and torques behind them, 3 numbers a contact; in the plant's own memory, where the next
@@ -152,10 +151,7 @@ public:
     template <class State, class Counts>
     [[nodiscard]] S time_rate(const State& y, Counts&& counts) const noexcept {
         if (step_->plain_time) return S(1);
-        S sum(0);
-        for (int i = 0; i < contacts_; ++i)
-            if (counts(i)) sum += S(1) / root_depth(y, i);
-        return sum == S(0) ? S(1) : S(1) / sum;
+        return shared_time_rate<S>(contacts_, counts, [&](int i) { return root_depth(y, i); });
     }
 
     /// d/dsigma of the components but for the root depths; what follows begins at `follow`.
@@ -177,7 +173,7 @@ public:
     template <class State>
     void root_depth_rate(const State& y, int i, const S& depth_rate, const S& g, bool /*alone*/,
                          State& rate) const noexcept {
-        rate[root_depth_component(i)] = depth_rate * g / (S(2) * root_depth(y, i));
+        rate[root_depth_component(i)] = depth_rate * root_depth_per_depth<S>(root_depth(y, i), g);
     }
 
     /// Component k of the double impulse since the start [N s^2].
