@@ -1,21 +1,27 @@
 // Small vectors and matrices of any scalar, with nothing behind them. To and from Eigen: eigen/interop.hpp.
 //
-// Every component is written out: the compiler keeps in registers what no loop runs over.
+// No loop runs over the components: the compiler keeps in registers what none does.
 #pragma once
 
 #include <cmath>
+#include <utility>
 
 namespace footfall {
 
-/// Two numbers. Vector2<S>{} is zero; a variable declared without braces holds what is there.
-template <class S>
-class Vector2 {
-public:
-    using Scalar = S;
+/// N numbers, 2 or 3. SmallVector{} is zero; a variable declared without braces holds what is there.
+template <class S, int N>
+class SmallVector {
+    static_assert(N == 2 || N == 3);
 
-    constexpr Vector2() noexcept = default;
-    constexpr Vector2(const S& x, const S& y) noexcept : v_{x, y} {}
-    [[nodiscard]] static constexpr Vector2 Zero() noexcept { return {}; }
+public:
+    constexpr SmallVector() noexcept = default;
+    constexpr SmallVector(const S& x, const S& y) noexcept
+        requires(N == 2)
+        : v_{x, y} {}
+    constexpr SmallVector(const S& x, const S& y, const S& z) noexcept
+        requires(N == 3)
+        : v_{x, y, z} {}
+    [[nodiscard]] static constexpr SmallVector Zero() noexcept { return {}; }
 
     [[nodiscard]] constexpr const S& operator[](int i) const noexcept { return v_[i]; }
     [[nodiscard]] constexpr S& operator[](int i) noexcept { return v_[i]; }
@@ -23,106 +29,46 @@ public:
     [[nodiscard]] constexpr S& x() noexcept { return v_[0]; }
     [[nodiscard]] constexpr const S& y() const noexcept { return v_[1]; }
     [[nodiscard]] constexpr S& y() noexcept { return v_[1]; }
+    [[nodiscard]] constexpr const S& z() const noexcept
+        requires(N == 3)
+    {
+        return v_[2];
+    }
+    [[nodiscard]] constexpr S& z() noexcept
+        requires(N == 3)
+    {
+        return v_[2];
+    }
     [[nodiscard]] constexpr const S* data() const noexcept { return v_; }
     [[nodiscard]] constexpr S* data() noexcept { return v_; }
 
-    constexpr Vector2& operator+=(const Vector2& b) noexcept { return *this = *this + b; }
-    constexpr Vector2& operator-=(const Vector2& b) noexcept { return *this = *this - b; }
-    constexpr Vector2& operator*=(const S& k) noexcept { return *this = *this * k; }
-    constexpr Vector2& operator/=(const S& k) noexcept { return *this = *this / k; }
+    constexpr SmallVector& operator+=(const SmallVector& b) noexcept { return *this = *this + b; }
+    constexpr SmallVector& operator-=(const SmallVector& b) noexcept { return *this = *this - b; }
+    constexpr SmallVector& operator*=(const S& k) noexcept { return *this = *this * k; }
+    constexpr SmallVector& operator/=(const S& k) noexcept { return *this = *this / k; }
 
-    [[nodiscard]] friend constexpr Vector2 operator-(const Vector2& a) noexcept { return {-a.v_[0], -a.v_[1]}; }
-    [[nodiscard]] friend constexpr Vector2 operator+(const Vector2& a, const Vector2& b) noexcept {
-        return {a.v_[0] + b.v_[0], a.v_[1] + b.v_[1]};
+    [[nodiscard]] friend constexpr SmallVector operator-(const SmallVector& a) noexcept {
+        return each([&](int i) { return -a.v_[i]; });
     }
-    [[nodiscard]] friend constexpr Vector2 operator-(const Vector2& a, const Vector2& b) noexcept {
-        return {a.v_[0] - b.v_[0], a.v_[1] - b.v_[1]};
+    [[nodiscard]] friend constexpr SmallVector operator+(const SmallVector& a, const SmallVector& b) noexcept {
+        return each([&](int i) { return a.v_[i] + b.v_[i]; });
     }
-    [[nodiscard]] friend constexpr Vector2 operator*(const Vector2& a, const S& k) noexcept {
-        return {a.v_[0] * k, a.v_[1] * k};
+    [[nodiscard]] friend constexpr SmallVector operator-(const SmallVector& a, const SmallVector& b) noexcept {
+        return each([&](int i) { return a.v_[i] - b.v_[i]; });
     }
-    [[nodiscard]] friend constexpr Vector2 operator*(const S& k, const Vector2& a) noexcept { return a * k; }
-    [[nodiscard]] friend constexpr Vector2 operator/(const Vector2& a, const S& k) noexcept {
-        return {a.v_[0] / k, a.v_[1] / k};
+    [[nodiscard]] friend constexpr SmallVector operator*(const SmallVector& a, const S& k) noexcept {
+        return each([&](int i) { return a.v_[i] * k; });
     }
-    [[nodiscard]] friend constexpr bool operator==(const Vector2& a, const Vector2& b) noexcept {
-        return a.v_[0] == b.v_[0] && a.v_[1] == b.v_[1];
+    [[nodiscard]] friend constexpr SmallVector operator*(const S& k, const SmallVector& a) noexcept { return a * k; }
+    [[nodiscard]] friend constexpr SmallVector operator/(const SmallVector& a, const S& k) noexcept {
+        return each([&](int i) { return a.v_[i] / k; });
     }
-
-    [[nodiscard]] constexpr S dot(const Vector2& b) const noexcept { return v_[0] * b.v_[0] + v_[1] * b.v_[1]; }
-    [[nodiscard]] constexpr S squaredNorm() const noexcept { return dot(*this); }
-    [[nodiscard]] S norm() const noexcept {
-        using std::sqrt;
-        return sqrt(squaredNorm());
-    }
-    /// Of length 1; the zero vector stays what it is.
-    [[nodiscard]] Vector2 normalized() const noexcept {
-        const S length = norm();
-        return length > S(0) ? *this / length : *this;
-    }
-    [[nodiscard]] constexpr bool isZero() const noexcept { return *this == Vector2(); }
-    [[nodiscard]] bool allFinite() const noexcept {
-        using std::isfinite;
-        return isfinite(v_[0]) && isfinite(v_[1]);
-    }
-    /// The same in another scalar.
-    template <class T>
-    [[nodiscard]] constexpr Vector2<T> cast() const noexcept {
-        return {T(v_[0]), T(v_[1])};
+    [[nodiscard]] friend constexpr bool operator==(const SmallVector& a, const SmallVector& b) noexcept {
+        return with_indices([&](auto... i) { return ((a.v_[i] == b.v_[i]) && ...); });
     }
 
-private:
-    S v_[2];
-};
-
-/// Three numbers, as Vector2.
-template <class S>
-class Vector3 {
-public:
-    using Scalar = S;
-
-    constexpr Vector3() noexcept = default;
-    constexpr Vector3(const S& x, const S& y, const S& z) noexcept : v_{x, y, z} {}
-    [[nodiscard]] static constexpr Vector3 Zero() noexcept { return {}; }
-
-    [[nodiscard]] constexpr const S& operator[](int i) const noexcept { return v_[i]; }
-    [[nodiscard]] constexpr S& operator[](int i) noexcept { return v_[i]; }
-    [[nodiscard]] constexpr const S& x() const noexcept { return v_[0]; }
-    [[nodiscard]] constexpr S& x() noexcept { return v_[0]; }
-    [[nodiscard]] constexpr const S& y() const noexcept { return v_[1]; }
-    [[nodiscard]] constexpr S& y() noexcept { return v_[1]; }
-    [[nodiscard]] constexpr const S& z() const noexcept { return v_[2]; }
-    [[nodiscard]] constexpr S& z() noexcept { return v_[2]; }
-    [[nodiscard]] constexpr const S* data() const noexcept { return v_; }
-    [[nodiscard]] constexpr S* data() noexcept { return v_; }
-
-    constexpr Vector3& operator+=(const Vector3& b) noexcept { return *this = *this + b; }
-    constexpr Vector3& operator-=(const Vector3& b) noexcept { return *this = *this - b; }
-    constexpr Vector3& operator*=(const S& k) noexcept { return *this = *this * k; }
-    constexpr Vector3& operator/=(const S& k) noexcept { return *this = *this / k; }
-
-    [[nodiscard]] friend constexpr Vector3 operator-(const Vector3& a) noexcept {
-        return {-a.v_[0], -a.v_[1], -a.v_[2]};
-    }
-    [[nodiscard]] friend constexpr Vector3 operator+(const Vector3& a, const Vector3& b) noexcept {
-        return {a.v_[0] + b.v_[0], a.v_[1] + b.v_[1], a.v_[2] + b.v_[2]};
-    }
-    [[nodiscard]] friend constexpr Vector3 operator-(const Vector3& a, const Vector3& b) noexcept {
-        return {a.v_[0] - b.v_[0], a.v_[1] - b.v_[1], a.v_[2] - b.v_[2]};
-    }
-    [[nodiscard]] friend constexpr Vector3 operator*(const Vector3& a, const S& k) noexcept {
-        return {a.v_[0] * k, a.v_[1] * k, a.v_[2] * k};
-    }
-    [[nodiscard]] friend constexpr Vector3 operator*(const S& k, const Vector3& a) noexcept { return a * k; }
-    [[nodiscard]] friend constexpr Vector3 operator/(const Vector3& a, const S& k) noexcept {
-        return {a.v_[0] / k, a.v_[1] / k, a.v_[2] / k};
-    }
-    [[nodiscard]] friend constexpr bool operator==(const Vector3& a, const Vector3& b) noexcept {
-        return a.v_[0] == b.v_[0] && a.v_[1] == b.v_[1] && a.v_[2] == b.v_[2];
-    }
-
-    [[nodiscard]] constexpr S dot(const Vector3& b) const noexcept {
-        return v_[0] * b.v_[0] + v_[1] * b.v_[1] + v_[2] * b.v_[2];
+    [[nodiscard]] constexpr S dot(const SmallVector& b) const noexcept {
+        return with_indices([&](auto... i) { return (... + (v_[i] * b.v_[i])); });
     }
     [[nodiscard]] constexpr S squaredNorm() const noexcept { return dot(*this); }
     [[nodiscard]] S norm() const noexcept {
@@ -130,29 +76,52 @@ public:
         return sqrt(squaredNorm());
     }
     /// Of length 1; the zero vector stays what it is.
-    [[nodiscard]] Vector3 normalized() const noexcept {
+    [[nodiscard]] SmallVector normalized() const noexcept {
         const S length = norm();
         return length > S(0) ? *this / length : *this;
     }
-    [[nodiscard]] constexpr Vector3 cross(const Vector3& b) const noexcept {
+    [[nodiscard]] constexpr SmallVector cross(const SmallVector& b) const noexcept
+        requires(N == 3)
+    {
         return {y() * b.z() - z() * b.y(), z() * b.x() - x() * b.z(), x() * b.y() - y() * b.x()};
     }
     /// The first two components.
-    [[nodiscard]] constexpr Vector2<S> in_plane() const noexcept { return {x(), y()}; }
-    [[nodiscard]] constexpr bool isZero() const noexcept { return *this == Vector3(); }
+    [[nodiscard]] constexpr SmallVector<S, 2> in_plane() const noexcept
+        requires(N == 3)
+    {
+        return {x(), y()};
+    }
+    [[nodiscard]] constexpr bool isZero() const noexcept { return *this == SmallVector(); }
     [[nodiscard]] bool allFinite() const noexcept {
         using std::isfinite;
-        return isfinite(v_[0]) && isfinite(v_[1]) && isfinite(v_[2]);
+        return with_indices([&](auto... i) { return (isfinite(v_[i]) && ...); });
     }
     /// The same in another scalar.
     template <class T>
-    [[nodiscard]] constexpr Vector3<T> cast() const noexcept {
-        return {T(v_[0]), T(v_[1]), T(v_[2])};
+    [[nodiscard]] constexpr SmallVector<T, N> cast() const noexcept {
+        return with_indices([&](auto... i) { return SmallVector<T, N>(T(v_[i])...); });
     }
 
 private:
-    S v_[3];
+    /// f(0, 1, ...), up to N - 1.
+    template <class F>
+    [[gnu::always_inline]] static constexpr auto with_indices(F&& f) noexcept {
+        return [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) { return f(I...); }
+        (std::make_integer_sequence<int, N>{});
+    }
+    /// The vector of f(0), f(1), ...
+    template <class F>
+    [[gnu::always_inline]] static constexpr SmallVector each(F&& f) noexcept {
+        return with_indices([&](auto... i) __attribute__((always_inline)) { return SmallVector(f(i)...); });
+    }
+
+    S v_[N];
 };
+
+template <class S>
+using Vector2 = SmallVector<S, 2>;
+template <class S>
+using Vector3 = SmallVector<S, 3>;
 
 /// Three rows of three numbers.
 template <class S>
