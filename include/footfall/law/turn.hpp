@@ -8,22 +8,21 @@
 
 #include "footfall/law/erased.hpp"
 #include "footfall/law/friction/friction_part.hpp"
-#include "footfall/law/friction/haessig_friedland.hpp"
-#include "footfall/law/friction/seven_parameter.hpp"
 #include "footfall/math/vector.hpp"
 
 namespace footfall {
 
-/// How many vectors of the plane the states of a friction law begin with; what follows are plain numbers.
+/// How many vectors of the plane the states of a friction law begin with; what follows are plain numbers. A law of
+/// which not all states are vectors says how many are, by a member of this name.
 template <class Law>
 inline constexpr int vector_states = [] {
-    static_assert(FrictionPart<Law>::states() % 2 == 0, "say here which states of the law are vectors");
-    return FrictionPart<Law>::states() / 2;
+    if constexpr (requires { Law::vector_states; }) {
+        return Law::vector_states;
+    } else {
+        static_assert(FrictionPart<Law>::states() % 2 == 0, "vector_states is missing");
+        return FrictionPart<Law>::states() / 2;
+    }
 }();
-template <class S>
-inline constexpr int vector_states<SevenParameterFriction<S>> = 1;
-template <class S>
-inline constexpr int vector_states<HaessigFriedlandFriction<S>> = HaessigFriedlandFriction<S>::bonds;
 
 /// The states of a friction law, or of a variant of laws, in a frame that has turned by an angle about the normal
 /// [rad].

@@ -37,6 +37,7 @@ struct HaessigFriedlandFriction {
     using value_type = S;
     static constexpr int bonds = 20;  // N
     static constexpr int states = 2 * bonds + 1;
+    static constexpr int vector_states = bonds;  ///< of the plane (law/turn.hpp)
     static constexpr Phase first_phase = Phase::slip;
 
     S stiffness;  ///< sigma_0, stiffness of all bonds together over the load [1/m], > 0

@@ -47,6 +47,7 @@ template <class S = double>
 struct SevenParameterFriction {
     using value_type = S;
     static constexpr int states = 5;
+    static constexpr int vector_states = 1;  ///< of the plane (law/turn.hpp)
     static constexpr Phase first_phase = Phase::stick;
     /// The speed below which the spring counts as standing, over v_s [1]: far above rounding, far below what tells.
     static constexpr double resting_share = 1e-9;
