@@ -185,11 +185,9 @@ private:
         const std::vector<double> before(x.begin(), x.end());
         const Mode mode = law.mode_at(hybrid_.mode(i), t, x);
         ContactStep step{.phase = mode.phase};
-        const Load<double> load{law.scale_at(t.root_depth), mode.touches() ? law.load_at(t, x).over_scale : 0};
-        const std::span<double> own = x.subspan(static_cast<std::size_t>(law.normal_state_count()));
         constexpr double rough = 1e-2;
         with_law(law.friction, [&]<class Friction>(const Friction& friction) {
-            HeldFriction<Friction>(friction, rough).advance(load, t, rest, own, step);
+            hold_friction(law, HeldFriction<Friction>(friction, rough), mode, t, rest, x, step);
         });
         if (step.left > 0 || !step.mean_friction_force.allFinite()) {
             std::copy(before.begin(), before.end(), x.begin());

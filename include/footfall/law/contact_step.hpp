@@ -19,6 +19,16 @@
 
 namespace footfall {
 
+/// Advances the states x of a contact's friction over dt [s], > 0, in a mode, with how it stands held at t; writes what
+/// that gives into `step`. `friction` is the HeldFriction of the law's own, a Pair's over double.
+template <class Law, class Friction>
+void hold_friction(const Law& law, const HeldFriction<Friction>& friction, Mode mode, const Touch<double>& t, double dt,
+                   std::span<double> x, ContactStep& step) noexcept {
+    const Load<double> load{law.scale_at(t.root_depth), mode.touches() ? law.load_at(t, x).over_scale : 0};
+    friction.advance(load, t, dt, x.subspan(static_cast<std::size_t>(law.normal_state_count())), step);
+    law.deepen(t, dt, x);
+}
+
 /// Advances contacts under one law: a Pair over double.
 template <class Law>
 class ContactStepper {
@@ -41,9 +51,7 @@ public:
         const Mode mode = law_.mode_at({was}, t, x);
         ContactStep step{.phase = mode.phase};
         if (mode.loaded()) step.normal_force = law_.normal_force(t, x);
-        const Load<double> load{law_.scale_at(t.root_depth), mode.touches() ? law_.load_at(t, x).over_scale : 0};
-        friction_.advance(load, t, dt, x.subspan(static_cast<std::size_t>(law_.normal_state_count())), step);
-        law_.deepen(t, dt, x);
+        hold_friction(law_, friction_, mode, t, dt, x, step);
         return step;
     }
 
