@@ -141,7 +141,7 @@ struct FrictionPart<Law> {
         const Vector2<S> u = bristle(x);
         const Vector2<S> u_rate = (law.damping > S(0) ? S(-law.recovery_rate()) : S(0)) * u;
         if constexpr (Law::joins_unstrained) {
-            put_vector(rates, 0, u_rate + joining_rate(t, u));
+            put_vector(rates, 0, u_rate + law.joining_rate(t.root_depth, t.depth_rate, u));
         } else {
             put_vector(rates, 0, u_rate);
         }
@@ -242,21 +242,12 @@ struct FrictionPart<Law> {
     }
 
 private:
-    /// What the growing patch does to the bristle [m/s].
-    [[nodiscard, gnu::always_inline]] Vector2<S> joining_rate([[maybe_unused]] const Touch<S>& t,
-                                                              [[maybe_unused]] const Vector2<S>& u) const noexcept {
-        if constexpr (Law::joins_unstrained) {
-            return law.joining_rate(t.root_depth, t.depth_rate, u);
-        } else {
-            return Vector2<S>::Zero();
-        }
-    }
     /// What a bristle that slips is stretched by, less its clutch: one that nothing damps stays on its cone, so what
     /// the growing patch slackens its clutch does not have to.
     [[nodiscard, gnu::always_inline]] Vector2<S> stretching_velocity(
         const Touch<S>& t, [[maybe_unused]] const Vector2<S>& u) const noexcept {
         if constexpr (Law::joins_unstrained) {
-            if (law.plastic()) return t.slip + joining_rate(t, u);
+            if (law.plastic()) return t.slip + law.joining_rate(t.root_depth, t.depth_rate, u);
         }
         return t.slip;
     }
@@ -266,9 +257,9 @@ private:
         if constexpr (Law::joins_unstrained) {
             respond_joining(phase, t, load, load_rate, u, rates, r);
         } else if (phase == Phase::stick) {
-            put(law.stick(t.slip, u), Vector2<S>::Zero(), load, rates, r);
+            put(law.stick(t.slip, u), load, rates, r);
         } else {
-            put(law.slip(load.scale, load.over_scale, load_rate, t.slip, u), Vector2<S>::Zero(), load, rates, r);
+            put(law.slip(load.scale, load.over_scale, load_rate, t.slip, u), load, rates, r);
         }
         r.power[unpaid] = -law.stiffening_power(t.root_depth, t.depth_rate, u);
         // Without D_t and C_V the clutch's velocity depends on how fast its load changes.
@@ -277,21 +268,17 @@ private:
     /// Out of line: what every law computes stays as short as it is.
     [[gnu::noinline]] void respond_joining(Phase phase, const Touch<S>& t, const Load<S>& load, const S& load_rate,
                                            const Vector2<S>& u, std::span<S> rates, Response<S>& r) const noexcept {
-        if (phase == Phase::stick) {
-            put(law.stick(t.slip, u), joining_rate(t, u), load, rates, r);
-            return;
-        }
-        // The velocity that is put in for a bristle that nothing damps says all of its rate.
-        const Vector2<S> joining = law.plastic() ? Vector2<S>::Zero() : joining_rate(t, u);
-        put(law.slip(load.scale, load.over_scale, load_rate, stretching_velocity(t, u), u), joining, load, rates, r);
+        const bool stick = phase == Phase::stick;
+        put(stick ? law.stick(t.slip, u)
+                  : law.slip(load.scale, load.over_scale, load_rate, stretching_velocity(t, u), u),
+            load, rates, r);
+        // For a bristle that slips and that nothing damps, the velocity that was put in says all of its rate.
+        if (stick || !law.plastic())
+            put_vector(rates, 0, vector_at<S>(rates) + law.joining_rate(t.root_depth, t.depth_rate, u));
     }
-    [[gnu::always_inline]] void put(const FrictionResponse<S>& f, [[maybe_unused]] const Vector2<S>& joining,
-                                    const Load<S>& load, std::span<S> rates, Response<S>& r) const noexcept {
-        if constexpr (Law::joins_unstrained) {
-            put_vector(rates, 0, f.bristle_rate + joining);
-        } else {
-            put_vector(rates, 0, f.bristle_rate);
-        }
+    [[gnu::always_inline]] void put(const FrictionResponse<S>& f, const Load<S>& load, std::span<S> rates,
+                                    Response<S>& r) const noexcept {
+        put_vector(rates, 0, f.bristle_rate);
         r.push.friction = load.scale * f.force;
         r.power[by_tangential_damper] = load.scale * law.damping * f.bristle_rate.squaredNorm();  // (28)
         r.power[by_clutch] = -r.push.friction.dot(f.clutch_velocity);                             // (29), (30)
