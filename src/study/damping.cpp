@@ -1,7 +1,6 @@
 #include "footfall/study/damping.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -9,14 +8,10 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
+#include "study/law_alone.hpp"
+
 namespace footfall {
 namespace {
-
-/// A normal law whose states are zero.
-NormalForce<double> force_of(const NormalLaw& law, double root_depth, double depth_rate) {
-    const std::array<double, most_normal_states> none{};
-    return Pair<NormalLaw, NoFriction<>>(law, {}).normal_parts({root_depth, depth_rate, {}}, none);
-}
 
 /// Calls `visit(law, parameter)` with a copy of the law and its damping parameter; returns whether there is one.
 template <class Visit>
@@ -28,7 +23,7 @@ bool visit_damping(const NormalLaw& any, Visit&& visit) {
                 const auto dissipates = [&](double value) {
                     Law probe = law;
                     probe.*parameter.member = value;
-                    return force_of(probe, 1, 1).dissipative != 0;
+                    return study::LawAlone<double>(probe).force(1, 1).dissipative != 0;
                 };
                 if (dissipates(0) || !dissipates(1)) continue;
                 visit(law, parameter);
@@ -79,7 +74,7 @@ NormalLaw with_restitution(const NormalLaw& law, double mass, double speed, doub
         damping = 0;
         const double deepest = normal_impact(damped, mass, speed, options).peak_indentation;
         damping = 1;
-        const auto force = force_of(damped, std::sqrt(deepest / 2), speed);
+        const auto force = study::LawAlone<double>(damped).force(deepest / 2, speed);
         const double unit = std::abs(force.elastic / force.dissipative);
 
         constexpr double factor = 4, most = 1e7;

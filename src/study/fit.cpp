@@ -2,7 +2,6 @@
 #include "footfall/study/fit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "footfall/math/dual.hpp"
 #include "footfall/math/value_of.hpp"
 #include "study/drop_impact.hpp"
+#include "study/law_alone.hpp"
 
 namespace footfall {
 namespace {
@@ -35,22 +35,7 @@ double turning_point(double low, double high, const Predicate& holds) {
     return low;
 }
 
-/// A normal law alone, in the states that it has of an impact that began at a speed [m/s].
-template <class S>
-class BegunLaw {
-public:
-    BegunLaw(const NormalLawOver<S>& law, const S& speed) : law_(law, {}) {
-        law_.land({S(0), speed, Vector2<S>::Zero()}, std::span(states_));
-    }
-    /// At a depth [m], > 0, and its rate [m/s].
-    [[nodiscard]] NormalForce<S> force(const S& depth, const S& rate) const {
-        return law_.normal_parts({root_of_depth(depth), rate, Vector2<S>::Zero()}, states_);
-    }
-
-private:
-    Pair<NormalLawOver<S>, NoFriction<S>> law_;
-    std::array<S, most_normal_states> states_{};
-};
+;
 
 // Laws with parameters over another scalar ---------------------------------------------------------------------------
 
@@ -190,7 +175,7 @@ private:
     template <class S>
     [[nodiscard]] bool forces_at_rates(const NormalLawOver<S>& law, std::span<S> y) const {
         const FitData& data = study_.data;
-        const BegunLaw<S> begun(law, S(entry_speed()));
+        const study::LawAlone<S> begun(law, S(entry_speed()));
         for (std::size_t i = 0; i < y.size(); ++i) {
             y[i] = S(0);
             if (!(data.x[i] > 0)) continue;
@@ -270,7 +255,7 @@ double start_of(const NormalLaw& law, std::string_view key, const FitStudy& stud
         const auto small = [&](double log_value) {
             Law trial = base;
             trial.*parameter.member = std::exp(log_value);
-            const BegunLaw<double> begun(trial, scales.speed);
+            const study::LawAlone<double> begun(trial, scales.speed);
             const auto half = begun.force(scales.depth / 2, scales.speed / 2);
             return spring ? begun.force(scales.depth, 0).total() < scales.force : half.dissipative < 0.2 * half.elastic;
         };

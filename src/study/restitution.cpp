@@ -1,7 +1,6 @@
 #include "footfall/study/restitution.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -16,6 +15,7 @@
 
 #include "footfall/simulate/run.hpp"
 #include "footfall/study/viscoelastic_theory.hpp"
+#include "study/law_alone.hpp"
 
 namespace footfall {
 namespace {
@@ -38,12 +38,8 @@ void check_range(double from, double to) {
 /// A depth [m] of the size that an impact reaches: where the spring holds the energy that the impact brings, within a
 /// factor of two.
 double depth_scale(const NormalLaw& law, double mass, double speed, double gravity) {
-    const Pair<NormalLaw, NoFriction<>> normal(law, {});
-    const std::array<double, most_normal_states> at_rest{};
-    const auto reaches = [&](double z) {
-        const Touch<double> touch{root_of_depth(z), 0, Vector2<double>::Zero()};
-        return normal.held({Phase::slip}, touch, at_rest).normal_spring >= mass * (speed * speed / 2 + gravity * z);
-    };
+    const study::LawAlone<double> normal(law);
+    const auto reaches = [&](double z) { return normal.stored_energy(z) >= mass * (speed * speed / 2 + gravity * z); };
     constexpr double smallest = 1e-280, largest = 1e100;
     double z = 1e-3;
     while (reaches(z) && z > smallest) z /= 2;
